@@ -7,7 +7,7 @@
 namespace gnomon::bench {
 namespace {
 
-using Visibilities = std::vector<std::vector<float>>;  // of each light, by pixel
+using Visibilities = std::vector<std::vector<float>>;  // a light's, by pixel
 
 FailedFrame failed(const char* what) { return FailedFrame({what, {}, {}, "bench.frame"}); }
 

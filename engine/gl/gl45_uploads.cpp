@@ -10,8 +10,8 @@
 namespace gnomon::gl {
 namespace {
 
-// A frame of a hundred lights; meshes that are streamed in.
-constexpr std::size_t kLeastBytes = std::size_t{64} << 10, kMostBytes = std::size_t{16} << 20;
+// A frame of some tens of lights; meshes that are streamed in.
+constexpr std::size_t kLeastBytes = std::size_t{16} << 10, kMostBytes = std::size_t{16} << 20;
 constexpr GLuint64 kRound_ns = 100'000'000;
 constexpr int kMostRounds = 50;  // 5 s: a device that takes longer is lost
 
@@ -28,7 +28,10 @@ bool GlUploads::begin(std::span<const std::byte> bytes) {
     if (bytes.size() > kMostBytes || (bytes.size() > place_bytes_ && !grow(bytes.size()))) return false;
     current_ = (current_ + 1) % kLists;
     wait_for(std::exchange(copied_[current_], nullptr));
-    std::memcpy(mapped_ + current_ * place_bytes_, bytes.data(), bytes.size());
+    const std::size_t place = current_ * place_bytes_;
+    std::memcpy(mapped_ + place, bytes.data(), bytes.size());
+    // Flushed by a call, so that a recorder of calls (apitrace) sees what was written.
+    glFlushMappedNamedBufferRange(buffer_, static_cast<GLintptr>(place), static_cast<GLsizeiptr>(bytes.size()));
     return true;
 }
 
@@ -42,12 +45,13 @@ void GlUploads::end() { copied_[current_] = glFenceSync(GL_SYNC_GPU_COMMANDS_COM
 bool GlUploads::grow(std::size_t bytes) {
     drop();  // the device keeps what it still copies from
     const std::size_t place_bytes = std::bit_ceil(std::max(bytes, kLeastBytes));
-    constexpr GLbitfield kMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    constexpr GLbitfield kStorage = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT;
     const auto size = static_cast<GLsizeiptr>(kLists * place_bytes);
     glCreateBuffers(1, &buffer_);
-    glNamedBufferStorage(buffer_, size, nullptr, kMapping);
+    glNamedBufferStorage(buffer_, size, nullptr, kStorage);
     if (take_gl_error() == Failure::none)
-        mapped_ = static_cast<std::byte*>(glMapNamedBufferRange(buffer_, 0, size, kMapping));
+        mapped_ = static_cast<std::byte*>(
+            glMapNamedBufferRange(buffer_, 0, size, kStorage | GL_MAP_FLUSH_EXPLICIT_BIT));
     if (take_gl_error() != Failure::none || mapped_ == nullptr) {
         drop();
         return false;

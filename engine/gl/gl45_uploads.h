@@ -16,7 +16,7 @@ public:
     GlUploads(const GlUploads&) = delete;
     GlUploads& operator=(const GlUploads&) = delete;
 
-    /// Takes a list's bytes. Waits only if the device is kLists lists behind. Returns false if they are
+    /// Takes a list's bytes. Blocks only while the device is kLists lists behind. Returns false if they are
     /// over 16 MiB, or there is no memory that both sides see.
     bool begin(std::span<const std::byte> bytes);
     /// Copies [first, first + size) of these bytes into a buffer.

@@ -125,7 +125,7 @@ TEST_P(LitCascades, ShowToTheBitWhatEmptyMapsWouldShow) {
         const std::vector<float> with = visibility();
         float largest = 0.0f;
         for (std::size_t i = 0; i < with.size(); ++i) largest = std::max(largest, std::abs(with[i] - without[i]));
-        // Compilers of hardware drivers join products and sums as they like, in each program anew.
+        // Compilers of hardware drivers join products and sums as they like, otherwise in each program.
         EXPECT_LE(largest, device().info().is_software ? 0.0f : 0x1p-22f);
     }
 }

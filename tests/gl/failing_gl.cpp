@@ -52,10 +52,7 @@ struct Hook<Slot> {
         if (!memory && !value) return driver(arguments...);
         state.error = memory ? GL_OUT_OF_MEMORY : GL_INVALID_VALUE;
     }
-    static R null_map(A...) {
-        strikes(GlFault::null_map);
-        return nullptr;
-    }
+    static R null_map(A... arguments) { return strikes(GlFault::null_map) ? nullptr : driver(arguments...); }
 };
 
 GLenum get_error() {
@@ -145,6 +142,26 @@ void count_deleted() {
     (Hook<Slots>::put(&remove<Slots>), ...);
 }
 
+/// Calls functions that a device may not have called yet: the loader's table is filled by first calls.
+void call_once() {
+    const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    glDeleteSync(fence);
+    GLuint buffer = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, 4, nullptr, GL_DYNAMIC_STORAGE_BIT | GL_MAP_WRITE_BIT);
+    glNamedBufferSubData(buffer, 0, 4, &buffer);
+    glMapNamedBufferRange(buffer, 0, 4, GL_MAP_WRITE_BIT);
+    glDeleteBuffers(1, &buffer);
+    glDeleteShader(0);
+    glDeleteProgram(0);
+    glDeleteQueries(0, nullptr);
+    glDeleteTextures(0, nullptr);
+    glDeleteFramebuffers(0, nullptr);
+    glDeleteSamplers(0, nullptr);
+    glDeleteVertexArrays(0, nullptr);
+}
+
 }  // namespace
 
 const char* to_text(GlFault fault) {
@@ -168,6 +185,7 @@ const char* to_text(GlFault fault) {
 }
 
 FailingGl::FailingGl() {
+    call_once();
     state = {};
     make_fallible<&epoxy_glTextureStorage2D, &epoxy_glTextureStorage3D, &epoxy_glNamedBufferStorage,
                   &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap, &epoxy_glClearNamedBufferData,

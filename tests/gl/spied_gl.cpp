@@ -121,6 +121,7 @@ struct Spy<Slot> {
     X(EnableVertexArrayAttrib)                      \
     X(Enablei)                                      \
     X(EndQuery)                                     \
+    X(FlushMappedNamedBufferRange)                  \
     X(FenceSync)                                    \
     X(Finish)                                       \
     X(FrontFace)                                    \

@@ -31,6 +31,7 @@ Check well() {
     check.programs.all = check.programs.compiled = 7;
     check.rows.rows = {made_up_row(CheckVerdict::ok), made_up_row(CheckVerdict::ok),
                        made_up_row(CheckVerdict::not_judged)};
+    check.first_frames = {.drawn = 4, .differ = 0, .most_px = 0, .dark_px = 9, .took_s = 0.0};
     return check;
 }
 
@@ -46,7 +47,7 @@ TEST(Check, SaysInItsLastLineThatAllIsWell) {
 }
 
 TEST(Check, IsNotWellByAnyOneThingThatIsNot) {
-    Check limit = well(), program = well(), row = well(), none = well(), unopened = well();
+    Check limit = well(), program = well(), row = well(), none = well(), unopened = well(), lost = well(), lit = well();
     gl::DeviceFacts facts;
     facts.limits = {{"LOW", 7, 8}, {"HIGH", 9, 8, true}, {"RIGHT", 8, 8}, {"AS_WELL", 8, 8, true}};
     limit.device = check_device(facts, gl::RecordingDevice::default_info());
@@ -54,8 +55,10 @@ TEST(Check, IsNotWellByAnyOneThingThatIsNot) {
     row.rows.rows.push_back(made_up_row(CheckVerdict::failed));
     none.rows.rows.clear();
     unopened.rows.error = "no memory";
+    lost.first_frames.differ = 1;
+    lit.first_frames.dark_px = 0;
     EXPECT_EQ(limit.device.short_of.size(), 2u);
-    for (const Check* check : {&limit, &program, &row, &none, &unopened}) {
+    for (const Check* check : {&limit, &program, &row, &none, &unopened, &lost, &lit}) {
         EXPECT_FALSE(is_well(*check));
         EXPECT_EQ(last_line(check_text(*check)).rfind("not all is well here: ", 0), 0u) << check_text(*check);
         EXPECT_FALSE(nlohmann::json::parse(check_json(*check)).at("well").get<bool>());
