@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/gl/device_gl45.h"
+#include "engine/math/aabb.h"
 #include "engine/math/finite.h"
 
 namespace gnomon::embed {
