@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sample_game/app/debug_option.h"
+#include "sample_game/gui/keys.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/parse_number.h"
 
@@ -61,14 +62,9 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--debug", typed.debug, "NAME[:LIGHT[:MAP]]: a debug view over the picture, see --list");
     app.add_flag("--list", typed.list, "print what --set, --preset and --debug know, and exit");
     app.footer(
-        "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses,\n"
-        "F1 shows the lights and their settings, F3 the debug views one after the other, F2 the same of the next "
-        "light,\n"
-        "F4 keeps the shadows' fits while the camera goes on, F5 freezes the frame and shows its errors against\n"
-        "ray-traced truth, Esc quits.\n"
-        "The game, in a window without --scene, --camera, --fit-camera, --animation, --frames and --time: cross the\n"
-        "courtyard to the gate unseen;\n"
-        "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
+        list_keys() +
+        "The game, in a window without --scene, --camera, --fit-camera, --animation, --frames and --time: cross\n"
+        "the courtyard to the gate unseen. With any of these, the scene is looked at.");
 }
 
 /// Reads a side of the picture, 1 to kMaxSize_px pixels. Returns 0 if `text` is none.

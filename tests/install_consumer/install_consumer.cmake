@@ -23,9 +23,13 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/examples/run_examples.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
             ${CMAKE_CURRENT_BINARY_DIR}/examples_consumer ${CMAKE_CXX_COMPILER} $<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>)
   set_tests_properties(Package.ExamplesRunAgainstTheInstalledCopy PROPERTIES LABELS e2e TIMEOUT 600)
+  add_test(NAME Package.TheTutorialsProgramDrawsItsPicture
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/tutorial.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
+            ${CMAKE_CURRENT_BINARY_DIR}/tutorial_consumer ${CMAKE_CXX_COMPILER} $<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>)
+  set_tests_properties(Package.TheTutorialsProgramDrawsItsPicture PROPERTIES LABELS e2e TIMEOUT 600)
 endif()
 
-# The guides show that project's code and that of examples/, and nothing else.
+# The pages show code of programs that tests build, and nothing else but what .ci/loose_code.txt lists.
 add_test(NAME Guides.ShowWhatTheStrangerBuilds
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/snippets.py ${PROJECT_SOURCE_DIR})
 add_test(NAME Guides.AChangedBlockIsFound

@@ -43,6 +43,7 @@ inline constexpr SettingEditor kToggle = SettingEditor::toggle, kChoice = Settin
 
 struct LightSetting {
     const char* key;
+    const char* field;    // C++ name of what it sets: component, then member
     const char* values;   // what may be written, for people
     const char* meaning;  // one line
     /// Sets the value. Returns false, with nothing changed, if `text` is no value of this key.

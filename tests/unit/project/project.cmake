@@ -15,3 +15,14 @@ add_test(NAME Launcher.KeepsItsPromises
 set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.CodeReadsTheirFacts Tables.AComparisonIsFound
   Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports SamePictures.FindsWhatDiffers
   Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)
+# Pages: links, pictures, commands, figures that stand twice, blocks that programs fill.
+add_test(NAME Pages.AFaultIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_pages.py --self-test)
+add_test(NAME Pages.AChangedBlockIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/generate_pages.py --self-test)
+set_tests_properties(Pages.AFaultIsFound Pages.AChangedBlockIsFound PROPERTIES LABELS unit TIMEOUT 60)
+if(GNOMON_SAMPLE)
+  add_test(NAME Pages.HoldWhatTheySay
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_pages.py --bin $<TARGET_FILE_DIR:gnomon_game>)
+  add_test(NAME Pages.SayWhatTheProgramsKnow
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/generate_pages.py --bin $<TARGET_FILE_DIR:gnomon_game> --check)
+  set_tests_properties(Pages.HoldWhatTheySay Pages.SayWhatTheProgramsKnow PROPERTIES LABELS e2e TIMEOUT 120)
+endif()

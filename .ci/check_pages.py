@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+"""Checks all pages: links, anchors, pictures, commands and figures that stand in more than one place.
+
+usage: check_pages.py [--bin FOLDER] [ROOT]  prints one line per fault; exit status 1 if there is any
+       check_pages.py --self-test            spoils each thing once in a small tree, and expects it to be found
+FOLDER has gnomon_game and gnomon_bench: with it, every flag of a command must be one that --help names, and --list every key.
+
+A figure that pages repeat is written <!-- figure: NAME -->4.8 %<!-- /figure -->: all of one name must be the same text.
+Pages about a file of JSON name it by <!-- json: NAME --> ... <!-- /json -->; test_pages.py compares their keys with a file.
+"""
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import pages  # noqa: E402  (it lies beside this file)
+
+FIGURE = re.compile(r"<!-- figure: (?P<name>[\w.-]+) -->(?P<text>.*?)<!-- /figure -->", re.DOTALL)
+FIGURE_MARK = re.compile(r"<!-- (?:figure: [^>]*|/figure) -->")
+FLAG = re.compile(r"--[a-z][\w-]*")
+# Pages that no page has to reach: they stand in the root, where their names are what finds them.
+START = "README.md"
+MOST_CLICKS = 2
+
+
+# --- links ------------------------------------------------------------------------------------------------------------
+
+def target_of(page, target):
+    """Path and anchor of a link; None for one that leaves the tree."""
+    if re.match(r"[a-z][a-z0-9+.-]*:", target):
+        return None
+    path, _, anchor = target.partition("#")
+    return (page.parent / path).resolve() if path else page.resolve(), anchor
+
+
+def wrong_links(root, texts):
+    found, known = [], {page.resolve(): pages.anchors(text) for page, text in texts.items()}
+    for page, text in texts.items():
+        for line, target, is_picture in pages.links(text):
+            place = target_of(page, target)
+            if place is None:
+                continue
+            path, anchor = place
+            name = "%s:%d" % (page.relative_to(root), line)
+            if not path.exists():
+                found.append("%s: %s '%s' does not exist" % (name, "picture" if is_picture else "link", target))
+            elif anchor and path in known and anchor not in known[path]:
+                found.append("%s: '%s' has no heading '#%s'" % (name, path.relative_to(root.resolve()), anchor))
+    return found
+
+
+def far_pages(root, texts, most=MOST_CLICKS):
+    """Pages below docs/ that are more than `most` clicks away from the README."""
+    by_path = {page.resolve(): page for page in texts}
+    reached, edge = {root.resolve() / START}, {root.resolve() / START}
+    for _ in range(most):
+        places = [target_of(by_path[path], target) for path in edge if path in by_path
+                  for _, target, _ in pages.links(texts[by_path[path]])]
+        edge = {place[0] for place in places if place} - reached
+        reached |= edge
+    return ["%s: more than %d clicks from %s" % (page.relative_to(root), most, START)
+            for path, page in by_path.items() if path not in reached and "docs" in page.relative_to(root).parts[:1]]
+
+
+# --- figures ----------------------------------------------------------------------------------------------------------
+
+def wrong_figures(root, texts):
+    found, places = [], {}
+    for page, text in texts.items():
+        text = pages.FENCE.sub(pages.blank, text)
+        for match in FIGURE.finditer(text):
+            name = "%s:%d" % (page.relative_to(root), pages.line_of(text, match.start()))
+            places.setdefault(match["name"], []).append((name, " ".join(match["text"].split())))
+        if FIGURE_MARK.search(FIGURE.sub("", text)):
+            found.append("%s: a mark of a figure without its other half" % page.relative_to(root))
+    for figure, uses in places.items():
+        found += ["%s: figure %s is '%s', but '%s' at %s" % (place, figure, text, uses[0][1], uses[0][0])
+                  for place, text in uses[1:] if text != uses[0][1]]
+    return found
+
+
+# --- commands ---------------------------------------------------------------------------------------------------------
+
+class Programs:
+    """What the programs know: commands, flags and keys. Reads each --help once."""
+
+    def __init__(self, root, folder):
+        self.script = root / "gnomon"
+        self.folder, self.helps = folder, {}
+
+    def run(self, *command):
+        if command not in self.helps:
+            done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  timeout=60, check=False)
+            self.helps[command] = done.stdout if done.returncode == 0 else ""
+        return self.helps[command]
+
+    def own_commands(self):
+        return set(re.findall(r"^  (\w+)", self.run(self.script, "help"), re.MULTILINE))
+
+    def script_flags(self, command):
+        """Flags that the script itself takes for a command."""
+        text = self.run(self.script, "help")
+        block = re.search(r"^  %s\b.*?(?=^  \w|\n\n)" % command, text, re.MULTILINE | re.DOTALL)
+        return set(FLAG.findall(block[0])) if block else set()
+
+    def flags(self, program, *sub):
+        return set(FLAG.findall(self.run(self.folder / program, *sub, "--help")))
+
+    def bench_commands(self):
+        return set(re.findall(r"^  ([a-z]+)\b", self.run(self.folder / "gnomon_bench", "--help"), re.MULTILINE))
+
+    def keys(self):
+        return set(re.findall(r"^  (\w+) ", self.run(self.folder / "gnomon_game", "--list"), re.MULTILINE))
+
+
+def is_placeholder(word):
+    return not re.fullmatch(r"[a-z_]+", word)
+
+
+def wrong_command(command, programs):
+    """What is wrong with a command; empty: nothing that can be seen without running it."""
+    match = pages.COMMAND.match(command)
+    rest = re.sub(r"\s#.*", "", command[match.end():])
+    try:
+        words = shlex.split(rest.replace("…", "...").replace("'", "'"))
+    except ValueError as error:
+        return str(error)
+    words = [word.strip("[]") for word in words]
+    for end in ("&&", "|", ";", ">"):
+        words = words[:words.index(end)] if end in words else words
+    program = match["program"].rsplit("/", 1)[-1]
+    if program == "gnomon":
+        if not words or is_placeholder(words[0]):
+            return ""
+        name = words.pop(0)
+        if name not in programs.own_commands():
+            return "./gnomon has no command '%s'" % name
+        if programs.folder is None or name not in ("play", "bench", "check"):
+            known = programs.script_flags(name)
+            return "" if name in ("play", "bench", "check", "test") else next(
+                ("./gnomon %s has no flag %s" % (name, word) for word in words if FLAG.match(word) and word not in known), "")
+        program = "gnomon_game" if name == "play" else "gnomon_bench"
+        if name == "check":
+            words.insert(0, "check")
+    elif programs.folder is None:
+        return ""
+    sub = ()
+    if program == "gnomon_bench":
+        if not words or is_placeholder(words[0]):
+            return ""
+        sub = (words.pop(0),)
+        if sub[0] not in programs.bench_commands():
+            return "the bench has no command '%s'" % sub[0]
+    known = programs.flags(program, *sub)
+    for index, word in enumerate(words):
+        flag = word.split("=")[0]
+        if FLAG.match(word) and flag not in known:
+            return "%s has no flag %s" % (" ".join((program, *sub)), flag)
+        if word == "--set" and index + 1 < len(words):
+            key = words[index + 1].split("=")[0]
+            if not is_placeholder(key) and key not in programs.keys():
+                return "--set has no key '%s'" % key
+    return ""
+
+
+def wrong_commands(root, texts, programs):
+    found, count = [], 0
+    for page, text in texts.items():
+        for line, command in pages.commands(text):
+            count += 1
+            wrong = wrong_command(command, programs)
+            if wrong:
+                found.append("%s:%d: `%s`: %s" % (page.relative_to(root), line, command, wrong))
+    return found, count
+
+
+# --- all --------------------------------------------------------------------------------------------------------------
+
+def faults(root, folder):
+    texts = {page: page.read_text(encoding="utf-8") for page in pages.pages(root)}
+    commands, count = wrong_commands(root, texts, Programs(root, folder))
+    found = wrong_links(root, texts) + far_pages(root, texts) + wrong_figures(root, texts) + commands
+    links = sum(1 for text in texts.values() for _ in pages.links(text))
+    figures = sum(len(FIGURE.findall(text)) for text in texts.values())
+    return found, "%d pages, %d links and pictures, %d commands, %d marked figures" % (len(texts), links, count, figures)
+
+
+# A page without fault, and changes that each make one.
+GOOD = """# Title
+[two](docs/two.md), [its part](docs/two.md#the-part-2), [here](#a-part), ![p](docs/p.png), [`code`](docs/two.md), [far](https://x/)
+## A part
+Costs <!-- figure: cost -->1.5 ms<!-- /figure --> and <!-- figure: cost -->1.5 ms<!-- /figure -->, by `./gnomon test --seed 3`.
+```sh
+./gnomon play --size 3x3 --set filter=hard   # a remark
+./gnomon bench frame --rounds 2
+```
+"""
+SPOILT = (
+    ("(docs/two.md)", "(docs/too.md)", "does not exist"),
+    ("#the-part-2", "#the-part-3", "no heading"),
+    ("#a-part", "#b-part", "no heading"),
+    ("p.png", "q.png", "picture"),
+    ("[`code`](docs/two.md)", "[`code`](docs/none.md)", "does not exist"),
+    ("1.5 ms<!-- /figure -->,", "1.6 ms<!-- /figure -->,", "figure cost"),
+    ("1.5 ms<!-- /figure -->,", "1.5 ms,", "other half"),
+    ("gnomon play", "gnomon plain", "no command"),
+    ("--size", "--seize", "no flag"),
+    ("filter=", "filler=", "no key"),
+    ("bench frame", "bench frames", "no command"),
+    ("--rounds", "--round", "no flag"),
+    ("[two](docs/two.md), [its part](docs/two.md#the-part-2)", "", "clicks"),
+)
+GAME = """#!/bin/sh
+case $1 in --list) echo '  filter  how';; *) echo '  --size WxH'; echo '  --set K=V'; echo '  --list';; esac
+"""
+BENCH = "#!/bin/sh\nif [ $1 = frame ]; then echo '  --rounds N'; else echo '  frame  times'; fi\n"
+SCRIPT = "#!/bin/sh\nprintf '  play [F]  plays\\n  test [--seed N]\\n  bench WHAT\\n\\n'\n"
+
+
+def self_test():
+    missed = []
+    with tempfile.TemporaryDirectory() as name:
+        root = Path(name)
+        (root / "docs").mkdir()
+        (root / "bin").mkdir()
+        for file, text in (("docs/two.md", "# Two\n## The part\n## The part\n## The part\n[one](../README.md)\n"), ("docs/p.png", "")):
+            (root / file).write_text(text, encoding="utf-8")
+        for file, text in (("gnomon", SCRIPT), ("bin/gnomon_game", GAME), ("bin/gnomon_bench", BENCH)):
+            (root / file).write_text(text, encoding="utf-8")
+            (root / file).chmod(0o755)
+        for before, after, expected in (("", "", ""), *SPOILT):
+            text = GOOD.replace(before, after) if before else GOOD
+            if expected == "clicks":
+                text = text.replace("[`code`](docs/two.md)", "")
+            (root / "README.md").write_text(text, encoding="utf-8")
+            found, _ = faults(root, root / "bin")
+            if bool(found) != bool(expected) or not all(expected in line for line in found):
+                missed.append("'%s' in place of '%s' gives %s" % (after, before, found))
+    print(*missed, "%d spoilt, %d not found" % (len(SPOILT), len(missed)), sep="\n")
+    return 1 if missed else 0
+
+
+def main(arguments):
+    if "--self-test" in arguments:
+        return self_test()
+    folder = None
+    if arguments[:1] == ["--bin"]:
+        folder, arguments = Path(arguments[1]).resolve(), arguments[2:]
+    found, counts = faults(Path(arguments[0]) if arguments else pages.ROOT, folder)
+    print(*found, "%s: %d faults" % (counts, len(found)), sep="\n")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,350 @@
+#!/usr/bin/env python3
+"""Fills the parts of pages that programs know, and says which measured parts are older than what they measure.
+
+usage: generate_pages.py --bin FOLDER           writes every generated block, and a stamp into measured ones that have none
+       generate_pages.py --bin FOLDER --check   writes nothing; exit status 1 if a block differs, is unknown or has no stamp
+       generate_pages.py --bin FOLDER --stamp PAGE -- COMMAND   stamps the blocks of PAGE that COMMAND has just replaced
+       generate_pages.py --list                 names all blocks
+       generate_pages.py --self-test            spoils blocks of a small tree, and expects each to be found
+FOLDER has gnomon_tables, gnomon_game and gnomon_bench.
+
+A generated block stands between <!-- generated: NAME --> and <!-- /generated -->. A measured one, which only its command can
+remake, stands between <!-- NAME --> and <!-- end of NAME -->, and begins with a stamp: command, device and commit.
+A figure, <!-- figure: NAME -->text<!-- /figure -->, is filled if docs/pictures/figures.json has its name.
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from html import escape, unescape
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import pages  # noqa: E402  (it lies beside this file)
+from check_pages import FIGURE  # noqa: E402
+
+BLOCK = re.compile(r"(?P<begin>^[ \t]*<!-- generated: (?P<name>[^\n>]+?) -->\n)(?P<text>.*?)(?P<end>^[ \t]*<!-- /generated -->$)",
+                   re.MULTILINE | re.DOTALL)
+BLOCK_MARK = re.compile(r"^[ \t]*<!-- (?:generated: .*|/generated) -->$", re.MULTILINE)
+MEASURED = re.compile(r"(?P<begin>^<!-- (?P<name>[\w ]+) -->\n)(?P<text>.*?)(?P<end>^<!-- end of (?P=name) -->$)",
+                      re.MULTILINE | re.DOTALL)
+STAMP = re.compile(r"<sub>Made by <code>(?P<command>[^\n]*?)</code> on (?P<device>[^\n]*?), commit (?P<commit>[0-9a-f]{7,40})"
+                   r"(?P<dirty>, changed)?\.</sub>\n\n?")
+FIGURES = Path("docs/pictures/figures.json")
+# Measured blocks: what their figures depend on, beside the command that makes them.
+SHADOWS = ("systems", "shaders", "engine")
+DEPENDS = {
+    "cost": (*SHADOWS, "bench/sweep", "bench/compare", "bench/accuracy"),
+    "demand": (*SHADOWS, "bench/scaling"),
+    "rows": (*SHADOWS, "bench/compare", "bench/accuracy"),
+    "pictures": (*SHADOWS, "bench/compare"),
+    "pictures of a disk": (*SHADOWS, "bench/compare"),
+    "figures": (*SHADOWS, "bench/compare", "bench/accuracy"),
+    "figures of a disk": (*SHADOWS, "bench/compare", "bench/accuracy"),
+    "speeds": (*SHADOWS, "bench/cost_model"),
+    "redraws": (*SHADOWS, "bench/scaling"),
+    "strip": (*SHADOWS, "bench/pictures"),
+}
+
+
+# --- tables -----------------------------------------------------------------------------------------------------------
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head)] + [[" ".join(str(cell).replace("|", "\\|").split()) for cell in row] for row in rows]
+    return "\n".join("|" + "|".join(" %s " % cell if cell != "---" else cell for cell in row) + "|" for row in lines) + "\n"
+
+
+def code(text):
+    return "`%s`" % text
+
+
+def values(text):
+    """The values of a setting: words as code, ranges as they are."""
+    words = [word.strip() for word in text.replace("...", "…").split(" | ")]
+    return ", ".join(code(word) if re.fullmatch(r"[a-z_0-9]*[a-z_]+[a-z_0-9]*", word) else word for word in words)
+
+
+def setting_rows(settings):
+    return [[code(s["key"]), values(s["values"]), code(s["default"]), code(s["field"]),
+             s["meaning"] + (". Needs " + s["needs"] if s["needs"] else "")] for s in settings]
+
+
+SETTING_HEAD = ["key", "values", "default", "field", "meaning"]
+
+
+def all_settings(tables):
+    return [setting for group in tables["settings"] for setting in group["settings"]]
+
+
+def settings_by_group(tables, wanted):
+    """Tables of the C++ components' groups; of one group its table alone."""
+    if wanted:
+        return table(SETTING_HEAD, setting_rows(next(g["settings"] for g in tables["settings"] if g["name"] == wanted)))
+    return "\n".join("**%s**: %s.\n\n%s" % (g["name"].capitalize(), g["meaning"], table(SETTING_HEAD, setting_rows(g["settings"])))
+                     for g in tables["settings"])
+
+
+def settings_by_purpose(tables, wanted):
+    """Tables of the panel's groups; of one group its table alone."""
+    def rows(name):
+        return table(SETTING_HEAD, setting_rows([s for s in all_settings(tables) if s["purpose"] == name]))
+    if wanted:
+        return rows(next(p["name"] for p in tables["purposes"] if p["name"] == wanted))
+    return "\n".join("**%s**: %s.\n\n%s" % (p["name"].capitalize(), p["meaning"], rows(p["name"])) for p in tables["purposes"])
+
+
+def options_table(text):
+    """Flags of a --help of CLI11 as a table; the part of a meaning before its colon is the flag's value."""
+    rows = []
+    for line in text.splitlines():
+        flag = re.match(r"  (-\S.*?)(?:  +(.*))?$", line)
+        if flag:
+            names = re.findall(r"-{1,2}[A-Za-z][\w-]*", flag[1].split(" ", 1)[0])
+            rows.append([names, (flag[2] or "").strip()])
+        elif rows and re.match(r" {6,}\S", line):
+            rows[-1][1] += " " + line.strip()
+        elif rows and line.strip():
+            break
+    cells = []
+    for names, meaning in rows:
+        meaning = re.sub(r"\bTEXT\b(?: \.\.\.)? ?", "", meaning).strip()
+        value = re.match(r"([A-Z][\w.]*(?:[|=x\[:][\w|.:\[\]]*)?|[a-z]+(?:\|[a-z]+)+|[A-Z]+(?: \.\.\.)?)(?=: | \(|$):? ?", meaning)
+        shown = names[-1] + (" " + value[1] if value else "")
+        cells.append([code(shown), meaning[value.end():] if value else meaning])
+    return table(["flag", "meaning"], cells)
+
+
+def commands_table(text):
+    """Commands of ./gnomon help."""
+    rows = []
+    for line in text.splitlines():
+        begin = re.match(r"  (\w.*?)(?:  +(.*))?$", line)
+        if begin:
+            rows.append([code("./gnomon " + begin[1]), begin[2] or ""])
+        elif rows and re.match(r" {10,}\S", line):
+            rows[-1][1] += " " + line.strip()
+        elif rows:
+            break
+    return table(["command", "what it does"], rows)
+
+
+class Facts:
+    """What the programs know of themselves, read once."""
+
+    def __init__(self, root, folder):
+        self.root, self.folder = root, folder
+        self.tables = json.loads(self.output("gnomon_tables"))
+
+    def output(self, program, *arguments):
+        done = subprocess.run([str(self.folder / program), *arguments], stdout=subprocess.PIPE, text=True, timeout=60, check=True)
+        return done.stdout
+
+    def block(self, name):
+        """Text of a generated block. Raises KeyError or StopIteration if there is no such block."""
+        words = name.split(" ", 1)
+        kind, rest = words[0], words[1] if len(words) > 1 else ""
+        tables = self.tables
+        if kind == "settings":
+            return settings_by_purpose(tables, rest[len("for "):]) if rest.startswith("for ") else settings_by_group(tables, rest)
+        if name == "purposes":
+            return settings_by_purpose(tables, "")
+        if kind == "options":
+            program, *sub = rest.split()
+            return options_table(self.output({"game": "gnomon_game", "bench": "gnomon_bench"}[program], *sub, "--help"))
+        return {
+            "presets": lambda: table(["preset", "settings", "meaning"], [
+                [code(p["name"]), code(" ".join(p["settings"])) if p["settings"] else "none", p["meaning"]]
+                for p in tables["presets"]]),
+            "filters": lambda: table(["filter", "taps: flat map, cube", "half-width, texels", "source", "file"], [
+                [code(f["name"]), "%d, %d" % (f["taps"], f["taps_cube"]), "%.3g" % f["reach_texel"],
+                 "soft" if f["soft"] else "a point", code(f["file"])] for f in tables["filters"]]),
+            "reasons": lambda: table(["reason", "meaning"], [[code(r["code"]), r["meaning"]] for r in tables["reasons"]]),
+            "debug views": lambda: table(["view", "shows"], [
+                [code(v["name"] + ("[:LIGHT]" if v["of_all"] else ":LIGHT")), v["meaning"]] for v in tables["debug_views"]]),
+            "keys": lambda: "\n".join(
+                "To %s:\n\n%s" % (place, table(["key", "what it does"],
+                                              [[k["keys"], k["meaning"]] for k in tables["keys"] if k["place"] == place]))
+                if place.startswith("look") else
+                "In %s also:\n\n%s" % (place, table(["key", "what it does"],
+                                                   [[k["keys"], k["meaning"]] for k in tables["keys"] if k["place"] == place]))
+                for place in dict.fromkeys(k["place"] for k in tables["keys"])),
+            "commands": lambda: commands_table(subprocess.run([str(self.root / "gnomon"), "help"], stdout=subprocess.PIPE,
+                                                              text=True, check=True).stdout),
+        }[name]()
+
+
+def names_of(facts):
+    tables = facts.tables
+    return (["settings"] + ["settings " + g["name"] for g in tables["settings"]] + ["purposes"] +
+            ["settings for " + p["name"] for p in tables["purposes"]] +
+            ["presets", "filters", "reasons", "debug views", "keys", "commands", "options game"] +
+            ["options bench " + name for name in re.findall(r"^  ([a-z]+)\b", facts.output("gnomon_bench", "--help"), re.MULTILINE)])
+
+
+# --- pages ------------------------------------------------------------------------------------------------------------
+
+def filled(text, facts, figures, faults, name):
+    """The page with its generated blocks as they should be. Adds a line to `faults` for each that cannot be made."""
+    def block(match):
+        try:
+            made = facts.block(match["name"])
+        except (KeyError, StopIteration, subprocess.CalledProcessError):
+            faults.append("%s:%d: no block is named '%s'" % (name, pages.line_of(text, match.start()), match["name"]))
+            return match[0]
+        return match["begin"] + "\n" + made.strip("\n") + "\n\n" + match["end"]
+
+    if BLOCK_MARK.search(BLOCK.sub("", text)):
+        faults.append("%s: a mark of a generated block without its other half" % name)
+    text = BLOCK.sub(block, text)
+    return FIGURE.sub(lambda m: "<!-- figure: %s -->%s<!-- /figure -->" % (m["name"], figures.get(m["name"], m["text"])), text)
+
+
+def git(root, *arguments):
+    done = subprocess.run(["git", "-C", str(root), *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                          check=False)
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def first_commit_of(root, text):
+    """The commit that brought the last line of figures of a measured block, wherever the page was then."""
+    lines = [line for line in text.splitlines() if line.startswith("|") and re.search(r"\d", line)] or text.splitlines()
+    return (git(root, "log", "--reverse", "--format=%h", "-S", lines[-1], "--", "docs", "bench").splitlines() or [""])[0]
+
+
+def measured_blocks(text):
+    return [match for match in MEASURED.finditer(text) if match["name"] in DEPENDS]
+
+
+def stamp_line(command, device, commit, dirty=False):
+    return "<sub>Made by <code>%s</code> on %s, commit %s%s.</sub>\n\n" % (escape(command, quote=False), device, commit,
+                                                                        ", changed" if dirty else "")
+
+
+def stamped(text, line):
+    """The page with line(match) at the start of each measured block that has no stamp."""
+    def put(match):
+        if match["name"] not in DEPENDS or STAMP.match(match["text"]):
+            return match[0]
+        return match["begin"] + line(match) + match["text"] + match["end"]
+    return MEASURED.sub(put, text)
+
+
+def ages(root, name, text):
+    """Lines about measured blocks: those without a stamp, and those older than what they depend on."""
+    missing, old = [], []
+    for match in measured_blocks(text):
+        stamp = STAMP.match(match["text"])
+        if not stamp:
+            missing.append("%s: the measured block '%s' has no stamp" % (name, match["name"]))
+            continue
+        changes = git(root, "log", "--oneline", "%s..HEAD" % stamp["commit"], "--", *DEPENDS[match["name"]]).splitlines()
+        if changes:
+            old.append("older: %s: '%s' is of %s; %d commits changed what it depends on since. Again: %s" % (
+                name, match["name"], stamp["commit"], len(changes), unescape(stamp["command"])))
+    return missing, old
+
+
+def old_command(text, match):
+    """The command in the text above a block; a block that is older than stamps names no other."""
+    above = [command for _, command in pages.commands(text[:match.start()]) if " bench " in command]
+    return above[-1] if above else "./gnomon bench"
+
+
+def device_of(facts):
+    """The name of the device that the programs draw with here."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "stats.json")
+        facts.output("gnomon_game", "--headless", "--frames", "1", "--size", "16x16", "--stats", file)
+        with open(file, encoding="utf-8") as stats:
+            return json.load(stats)["device"]
+
+
+def run(root, facts, check):
+    faults, old, differ = [], [], 0
+    file = root / FIGURES
+    figures = json.loads(file.read_text(encoding="utf-8"))["figures"] if file.is_file() else {}
+    for page in pages.pages(root):
+        name, text = page.relative_to(root), page.read_text(encoding="utf-8")
+        wanted = filled(text, facts, figures, faults, name)
+        if not check:
+            wanted = stamped(wanted, lambda m: stamp_line(old_command(text, m), "llvmpipe", first_commit_of(root, m["text"])))
+        missing, older = ages(root, name, wanted)
+        faults += missing
+        old += older
+        if wanted != text:
+            differ += 1
+            if check:
+                faults.append("%s differs from the program: run .ci/generate_pages.py --bin build/release/bin" % name)
+            else:
+                page.write_text(wanted, encoding="utf-8")
+                print("wrote", name)
+    print(*old, *faults, sep="\n")
+    print("%d pages %s, %d faults, %d measured blocks are older than what they depend on" % (
+        differ, "differ" if check else "written", len(faults), len(old)))
+    return 1 if faults else 0
+
+
+# --- self-test --------------------------------------------------------------------------------------------------------
+
+class SmallFacts:
+    tables = {}
+
+    @staticmethod
+    def block(name):
+        return {"keys": "|a|\n|---|\n|b|\n"}[name]
+
+
+GOOD = "x\n\n<!-- generated: keys -->\n\n|a|\n|---|\n|b|\n\n<!-- /generated -->\n\nIt is <!-- figure: f -->1 %<!-- /figure -->.\n\n" \
+       "<!-- cost -->\n<sub>Made by <code>./gnomon bench x</code> on d, commit 0123456.</sub>\n\n|1|\n<!-- end of cost -->\n"
+SPOILT = (("|b|", "|c|"), ("generated: keys", "generated: key"), ("<!-- /generated -->", ""), (">1 %<", ">2 %<"),
+          (", commit 0123456", ""), ("<sub>Made by", "<sub>Maid by"))
+
+
+def self_test():
+    missed = []
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        (root / FIGURES.parent).mkdir(parents=True)
+        (root / FIGURES).write_text('{"figures": {"f": "1 %"}}', encoding="utf-8")
+        page = root / "README.md"
+        for before, after in (("", ""), *SPOILT):
+            page.write_text(GOOD.replace(before, after) if before else GOOD, encoding="utf-8")
+            if run(root, SmallFacts, True) != (1 if before else 0):
+                missed.append("'%s' in place of '%s'" % (after, before))
+        page.write_text(GOOD.replace("|b|", "|c|").replace(">1 %<", "><"), encoding="utf-8")
+        run(root, SmallFacts, False)
+        if page.read_text(encoding="utf-8") != GOOD:
+            missed.append("a block that is written")
+        subprocess.run("git init -q && git add -A && git -c user.name=a -c user.email=b commit -qm a && mkdir systems && "
+                       "echo 1 > systems/a && git add -A && git -c user.name=a -c user.email=b commit -qm b", shell=True,
+                       cwd=root, check=True)
+        for ref, older in (("HEAD", 0), ("HEAD~1", 1)):
+            text = GOOD.replace("0123456", git(root, "rev-parse", "--short=8", ref))
+            if [len(lines) for lines in ages(root, "page", text)] != [0, older]:
+                missed.append("the age of %s" % ref)
+    print(*missed, "%d spoilt, %d not found" % (len(SPOILT) + 3, len(missed)), sep="\n")
+    return 1 if missed else 0
+
+
+def main(arguments):
+    if "--self-test" in arguments:
+        return self_test()
+    folder = Path(arguments[arguments.index("--bin") + 1]) if "--bin" in arguments else pages.ROOT / "build/release/bin"
+    facts = Facts(pages.ROOT, folder.resolve())
+    if "--list" in arguments:
+        print(*names_of(facts), sep="\n")
+        return 0
+    if "--stamp" in arguments:
+        page, command = Path(arguments[arguments.index("--stamp") + 1]), arguments[arguments.index("--") + 1:]
+        commit, dirty = git(pages.ROOT, "rev-parse", "--short=8", "HEAD"), bool(git(pages.ROOT, "status", "--porcelain", "-uno"))
+        line = stamp_line(" ".join(["./gnomon", *command]), device_of(facts), commit or "0000000", dirty)
+        page.write_text(stamped(page.read_text(encoding="utf-8"), lambda match: line), encoding="utf-8")
+        return 0
+    return run(pages.ROOT, facts, "--check" in arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

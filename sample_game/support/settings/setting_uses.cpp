@@ -1,0 +1,163 @@
+#include "sample_game/support/settings/setting_uses.h"
+
+#include <algorithm>
+#include <array>
+
+#include "systems/extract/light_facts.h"
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::game {
+namespace {
+
+using Settings = const LightSettings&;
+
+const shadow::FilterRow& row_of(Settings s) { return shadow::filter_row(s.shadow.filter); }
+bool is_among(std::span<const ShadowFilter> filters, ShadowFilter filter) {
+    return std::find(filters.begin(), filters.end(), filter) != filters.end();
+}
+
+bool for_sun(Settings, LightKind kind) { return light_facts(kind).parallel; }
+bool for_point(Settings, LightKind kind) { return !light_facts(kind).parallel && !light_facts(kind).cone; }
+
+bool for_source(Settings s, LightKind) { return row_of(s).width == shadow::FilterWidth::source; }
+bool for_lamp_source(Settings s, LightKind kind) { return for_source(s, kind) && !for_sun(s, kind); }
+bool for_sun_source(Settings s, LightKind kind) { return for_source(s, kind) && for_sun(s, kind); }
+
+bool for_size(Settings s, LightKind) { return row_of(s).width == shadow::FilterWidth::size; }
+bool for_spread(Settings s, LightKind) { return row_of(s).width == shadow::FilterWidth::spread; }
+bool for_spread_texel(Settings s, LightKind kind) { return for_spread(s, kind) && !(s.tuning.kernel.spread_m > 0.0f); }
+bool for_taps(Settings s, LightKind) {
+    static constexpr std::array kWithTaps{ShadowFilter::poisson, ShadowFilter::poisson_rotated,
+                                          ShadowFilter::poisson_stratified, ShadowFilter::pcss};
+    return is_among(kWithTaps, s.shadow.filter);
+}
+bool for_seed(Settings s, LightKind) {
+    static constexpr std::array kRandom{ShadowFilter::poisson_rotated, ShadowFilter::poisson_stratified,
+                                        ShadowFilter::pcss, ShadowFilter::exact_soft};
+    return is_among(kRandom, s.shadow.filter);
+}
+bool for_cells(Settings s, LightKind kind) { return for_seed(s, kind) && s.tuning.kernel.seed == FilterSeed::world; }
+bool for_many_taps(Settings s, LightKind kind) {
+    return (for_size(s, kind) || for_spread(s, kind)) && !row_of(s).moments;
+}
+bool for_source_rays(Settings s, LightKind) { return row_of(s).rays && row_of(s).rays->per_source; }
+
+bool for_moments(Settings s, LightKind) { return row_of(s).moments; }
+bool for_exponent(Settings s, LightKind) { return row_of(s).moments && row_of(s).moments->bits_32.usual_exponent > 0; }
+bool for_second_warp(Settings s, LightKind) {
+    return row_of(s).moments && row_of(s).moments->usual_negative_exponent > 0;
+}
+
+// Maps of bounds have neither an offset nor a format of depths to choose.
+bool for_depths(Settings s, LightKind) { return !row_of(s).storage.conservative_bounds; }
+bool for_offset_m(Settings s, LightKind kind) {
+    static constexpr std::array kModes{BiasMode::constant, BiasMode::slope, BiasMode::normal_offset,
+                                       BiasMode::receiver_plane};
+    return for_depths(s, kind) && std::find(kModes.begin(), kModes.end(), s.tuning.bias.mode) != kModes.end();
+}
+bool for_offset_texel(Settings s, LightKind kind) {
+    return for_offset_m(s, kind) && s.tuning.bias.mode != BiasMode::constant;
+}
+bool for_automatic_bias(Settings s, LightKind) { return s.tuning.bias.mode == BiasMode::automatic; }
+
+bool has_eye(Settings s, LightKind kind) {
+    return for_sun(s, kind) && s.tuning.projection.kind == LightProjection::perspective;
+}
+bool for_cascades(Settings s, LightKind kind) { return for_sun(s, kind) && !has_eye(s, kind); }
+bool for_splits(Settings s, LightKind kind) { return for_cascades(s, kind) && s.shadow.cascades != 1; }
+bool for_lambda(Settings s, LightKind kind) {
+    static constexpr std::array kMixed{CascadeSplits::practical, CascadeSplits::seen, CascadeSplits::sampled};
+    return for_splits(s, kind) && std::find(kMixed.begin(), kMixed.end(), s.tuning.cascades.splits) != kMixed.end();
+}
+bool for_manual_splits(Settings s, LightKind kind) {
+    return for_cascades(s, kind) && s.tuning.cascades.splits == CascadeSplits::manual;
+}
+bool for_blend(Settings s, LightKind kind) { return for_splits(s, kind) && for_depths(s, kind); }
+bool for_warp(Settings s, LightKind kind) {
+    return for_cascades(s, kind) && for_depths(s, kind) && s.tuning.cascades.fit == ShadowFit::tight;
+}
+
+constexpr std::array kBasic{
+    SettingUse{"enabled"},
+    SettingUse{"filter"},
+    SettingUse{"max_error_px"},
+    SettingUse{"source_radius_m", for_lamp_source,
+               "a spot or point light with filter pcss, pcss_moments or exact_soft"},
+    SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments or exact_soft"},
+};
+constexpr std::array kQuality{
+    SettingUse{"resolution"},
+    SettingUse{"caster_faces", for_depths, "a filter other than exact and exact_soft"},
+    SettingUse{"layers"},
+    SettingUse{"penumbra_rays", for_source_rays, "filter exact_soft"},
+    SettingUse{"filter_seed", for_seed, "filter poisson_rotated, poisson_stratified, pcss or exact_soft"},
+    SettingUse{"filter_cell_m", for_cells, "a filter with random taps, and filter_seed world"},
+};
+constexpr std::array kCascades{
+    SettingUse{"cascades", for_cascades, "a sun without perspective projection"},
+    SettingUse{"fit", for_cascades, "a sun without perspective projection"},
+    SettingUse{"splits", for_splits, "a sun with more than one cascade"},
+    SettingUse{"split_lambda", for_lambda, "splits practical, seen or sampled of a sun"},
+    SettingUse{"split_m", for_manual_splits, "splits manual of a sun"},
+    SettingUse{"cascade_blend", for_blend, "a sun with more than one cascade, and a filter that reads depths"},
+    SettingUse{"warp", for_warp, "fit tight of a sun, and a filter that reads depths"},
+};
+constexpr std::array kCost{
+    SettingUse{"refresh_error_px", for_automatic_bias, "bias automatic"},
+    SettingUse{"depth_format", for_depths, "a filter other than exact and exact_soft"},
+    SettingUse{"cube_route", for_point, "a point light"},
+    SettingUse{"early_bail", for_many_taps, "a filter of many taps"},
+    SettingUse{"economy"},
+    SettingUse{"keep_visibility"},
+};
+constexpr std::array kComparison{
+    SettingUse{"filter_size", for_size, "a pcf or prefiltered filter"},
+    SettingUse{"filter_taps", for_taps, "a poisson filter or pcss"},
+    SettingUse{"filter_spread_texel", for_spread_texel, "a poisson or cube filter, and filter_spread_m 0"},
+    SettingUse{"filter_spread_m", for_spread, "a poisson or cube filter"},
+    SettingUse{"filter_doubles_m", for_spread, "a poisson or cube filter"},
+    SettingUse{"moment_bits", for_moments, "a prefiltered filter"},
+    SettingUse{"moment_exponent", for_exponent, "filter exponential, evsm2 or evsm4"},
+    SettingUse{"moment_negative_exponent", for_second_warp, "filter evsm4"},
+    SettingUse{"moment_bleeding", for_moments, "a prefiltered filter"},
+    SettingUse{"moment_levels", for_moments, "a prefiltered filter"},
+    SettingUse{"moment_anisotropy", for_moments, "a prefiltered filter"},
+    SettingUse{"bias", for_depths, "a filter other than exact and exact_soft"},
+    SettingUse{"bias_m", for_offset_m, "bias constant, slope, normal_offset or receiver_plane"},
+    SettingUse{"bias_texel", for_offset_texel, "bias slope, normal_offset or receiver_plane"},
+    SettingUse{"projection", for_sun, "a sun"},
+    SettingUse{"eye_distance_m", has_eye, "a sun with projection perspective"},
+    SettingUse{"eye_angle_deg", has_eye, "a sun with projection perspective"},
+    SettingUse{"near_m"},
+    SettingUse{"far_m"},
+};
+
+}  // namespace
+
+std::span<const PurposeGroup> purpose_groups() {
+    static constexpr std::array kGroups{
+        PurposeGroup{"basic", "what most scenes ever set", kBasic},
+        PurposeGroup{"quality", "when edges must be finer or softer than the defaults make them", kQuality},
+        PurposeGroup{"cascades", "how a sun's maps divide the view", kCascades},
+        PurposeGroup{"cost", "when memory or time is short", kCost},
+        PurposeGroup{"for comparison", "textbook methods beside Gnomon's own", kComparison}};
+    return kGroups;
+}
+
+std::string_view why_idle(const SettingUse& use, const LightSettings& settings, LightKind kind) {
+    if (!settings.shadow.enabled && std::string_view(use.key) != "enabled") return "enabled";
+    return !use.works || use.works(settings, kind) ? std::string_view{} : use.needs;
+}
+
+void reset_group(const PurposeGroup& group, LightSettings& settings) {
+    for (const SettingUse& use : group.settings) {
+        const LightSetting& setting = *find_setting(use.key);
+        setting.set(settings, setting.get(LightSettings{}));
+    }
+}
+
+bool is_default(const LightSetting& setting, const LightSettings& settings) {
+    return setting.get(settings) == setting.get(LightSettings{});
+}
+
+}  // namespace gnomon::game
