@@ -7,7 +7,9 @@ namespace gnomon::math {
 
 /// Axis-aligned box in double. A default box is empty (min > max).
 struct Aabb {
+    /// Least corner.
     glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    /// Greatest corner.
     glm::dvec3 max{-std::numeric_limits<double>::infinity()};
     bool operator==(const Aabb&) const = default;
 };
@@ -18,7 +20,8 @@ namespace gnomon::gl {
 
 /// Rectangle of pixels; y up, as OpenGL counts.
 struct Rect {
-    std::int32_t x = 0, y = 0, width = 0, height = 0;
+    std::int32_t x = 0, y = 0;           // lower left pixel
+    std::int32_t width = 0, height = 0;  // pixels; 0: empty
     bool operator==(const Rect&) const = default;
 };
 

@@ -15,8 +15,8 @@ namespace gnomon::ecs {
 
 /// Opaque, versioned entity id. A destroyed id never equals a living one: its index may be reused, its version is not.
 struct Entity {
-    std::uint32_t index = 0xffffffffu;
-    std::uint32_t version = 0;
+    std::uint32_t index = 0xffffffffu;  // slot, reused by later entities
+    std::uint32_t version = 0;          // number of entities that the slot had before
     bool operator==(const Entity&) const = default;
 };
 
@@ -40,38 +40,39 @@ namespace gnomon {
 /// translation_m + rotation * (scale * p). Positions are double, in metres, so that a scene at 1e8 m behaves like one
 /// at the origin. A zero scale hides the entity's mesh; NaN or infinity quarantines the entity (see FrameReport).
 struct Transform {
-    glm::dvec3 translation_m{0.0};
+    glm::dvec3 translation_m{0.0};            // place in the parent's space, metres
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z; need not be unit length
-    glm::dvec3 scale{1.0};
-    ecs::Entity parent = ecs::kNull;
+    glm::dvec3 scale{1.0};                    // factor along each own axis; negative: mirrored; 0: hidden
+    ecs::Entity parent = ecs::kNull;          // entity with a Transform; null: the world
 };
 
 /// Place of an entity in the world: maps a local point p to basis * p + translation_ws_m. Written by Frame::run() only,
 /// from the Transforms of the entity and its parents; read it wherever that is needed.
 struct WorldTransform {
-    glm::dmat3 basis{1.0};
-    glm::dvec3 translation_ws_m{0.0};
+    glm::dmat3 basis{1.0};             // rotation and scale
+    glm::dvec3 translation_ws_m{0.0};  // place in the world, metres
     bool operator==(const WorldTransform&) const = default;
 };
 
+/// How a camera projects: toward its place, or along parallel lines.
 enum class CameraProjection : unsigned char { perspective, orthographic };
 
 /// Looks along its own -Z with +Y up. Each camera with `active` gets shadows. What no active camera sees costs nothing.
 struct Camera {
-    CameraProjection projection = CameraProjection::perspective;
-    double fov_y_rad = 0.9;      // perspective: full vertical angle, (0, pi)
-    double half_height_m = 5.0;  // orthographic: half of the visible height
-    double near_m = 0.05;        // > 0 for perspective
+    CameraProjection projection = CameraProjection::perspective;  // which of the next two fields counts
+    double fov_y_rad = 0.9;                                       // perspective: full vertical angle, (0, pi)
+    double half_height_m = 5.0;                                   // orthographic: half of the visible height
+    double near_m = 0.05;                                         // > 0 for perspective
     double far_m = 1.0e9;  // > near; perspective: may be infinite; orthographic: the view ends where the scene does
     /// Width by height of a frame that stays visible whole: a narrower picture shows a taller view. 0 or NaN: only the
     /// height counts.
     double frame_aspect = 0.0;
-    bool active = true;
+    bool active = true;  // false: it gets no picture and no shadows
 };
 
 /// Draws mesh number `mesh` of the MeshLibrary.
 struct MeshRef {
-    std::uint32_t mesh = 0;
+    std::uint32_t mesh = 0;                         // index in MeshLibrary::meshes
     bool visible = true;                            // false: not drawn for any camera; still casts if a ShadowCaster
     bool receives_shadow = true;                    // false: always fully lit by every light
     ShadowLayers shadow_layers = kAllShadowLayers;  // always fully lit by lights of other layers
@@ -79,7 +80,7 @@ struct MeshRef {
 
 /// Makes an entity with a MeshRef cast shadows.
 struct ShadowCaster {
-    bool enabled = true;
+    bool enabled = true;                     // false: casts nothing, as without the component
     ShadowLayers layers = kAllShadowLayers;  // lights of other layers do not see it
 };
 
@@ -95,12 +96,12 @@ struct Skin {
 /// Targets beyond the list count as 0. Among entities that share a mesh, the one with the lowest index sets the weights
 /// (see Skin).
 struct MorphWeights {
-    std::vector<float> weights = {};
+    std::vector<float> weights = {};  // one per target, in the mesh's order
 };
 
 /// Name of the entity in reports, picture files and debuggers.
 struct Name {
-    std::string text;
+    std::string text;  // any UTF-8; empty: the entity's index is shown
 };
 
 }  // namespace gnomon

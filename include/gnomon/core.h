@@ -22,20 +22,22 @@ namespace gnomon::core {
 
 // ---------------------------------------------------------------------------------------------------------- input
 
+/// How a camera projects: toward its place, or along parallel lines.
 enum class Projection : std::uint8_t { perspective, orthographic };
 
 /// Camera that sees the shadows. What no camera sees has no map.
 struct Camera {
-    glm::dvec3 position_ws_m{0.0};  // finite
-    glm::dmat3 rotation_ws{1.0};    // columns right, up, back: it looks along -back; scale is ignored
-    Projection projection = Projection::perspective;
-    double fov_y_rad = 0.9;             // perspective: full vertical angle, in (0, pi)
-    double half_height_m = 5.0;         // orthographic: half of the visible height, above 0
-    double near_m = 0.05;               // perspective: above 0
-    double far_m = 1.0e9;               // above near_m; perspective: may be infinite
-    glm::uvec2 viewport_px{1280, 720};  // above 0
+    glm::dvec3 position_ws_m{0.0};                    // finite
+    glm::dmat3 rotation_ws{1.0};                      // columns right, up, back: it looks along -back; scale is ignored
+    Projection projection = Projection::perspective;  // which of the next two fields counts
+    double fov_y_rad = 0.9;                           // perspective: full vertical angle, in (0, pi)
+    double half_height_m = 5.0;                       // orthographic: half of the visible height, above 0
+    double near_m = 0.05;                             // perspective: above 0
+    double far_m = 1.0e9;                             // above near_m; perspective: may be infinite
+    glm::uvec2 viewport_px{1280, 720};                // above 0
 };
 
+/// Kind of a light. `directional`: a sun. `spot`: a cone from a place. `point`: in all directions.
 enum class LightKind : std::uint8_t { directional, spot, point };
 
 /// How your lookup reads a map. It decides how much border a map has, how far an edge may be off, and the bias.
@@ -60,29 +62,31 @@ enum class Fit : std::uint8_t {
 
 /// Where a sun's cascades end along the view.
 enum class Splits : std::uint8_t {
-    practical,  // mixture of logarithmic and uniform splits by split_lambda
-    uniform,
-    logarithmic,
-    manual,  // split_m
-    seen,    // as practical, over the depths that receivers cover
+    practical,    // mixture of logarithmic and uniform splits by split_lambda
+    uniform,      // slices of equal length
+    logarithmic,  // slices of equal ratio
+    manual,       // split_m
+    seen,         // as practical, over the depths that receivers cover
 };
 
 /// How your maps store depth: 32-bit float, or 24- or 16-bit fixed point.
 enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 
+/// Largest number of a sun's cascades.
 inline constexpr std::size_t kMostCascades = 8;
+/// All eight layers: the default of lights and boxes.
 inline constexpr std::uint8_t kAllLayers = 0xff;
 
 /// What a light's shadow is to be. The defaults need no tuning. Invalid values are replaced by these, and the status
 /// names them.
 struct Shadow {
-    Filter filter = Filter::bilinear;
-    float max_error_px = 0.0f;        // allowed error of an edge on screen; 0: 1, as far as usual sizes meet it
-    std::uint32_t resolution_px = 0;  // edge of one map, cascade or face; 0: chosen by the allowed error
-    std::uint32_t cascades = 0;       // sun: at most kMostCascades; 0: as few as meet the allowed error, 1 to 4
-    std::uint32_t kernel_texel = 3;   // filters that say so: odd, 1 to 31
-    float spread_texel = 2.0f;        // Filter::disk: 0 to 16
-    DepthFormat depth_format = DepthFormat::d32f;
+    Filter filter = Filter::bilinear;  // how your lookup reads its maps
+    float max_error_px = 0.0f;         // allowed error of an edge on screen; 0: 1, as far as usual sizes meet it
+    std::uint32_t resolution_px = 0;   // edge of one map, cascade or face; 0: chosen by the allowed error
+    std::uint32_t cascades = 0;        // sun: at most kMostCascades; 0: as few as meet the allowed error, 1 to 4
+    std::uint32_t kernel_texel = 3;    // filters that say so: odd, 1 to 31
+    float spread_texel = 2.0f;         // Filter::disk: 0 to 16
+    DepthFormat depth_format = DepthFormat::d32f;    // as you create its maps
     float near_m = 0.0f, far_m = 0.0f;               // spot and point: depth range, metres from the light; 0: fitted
     Fit fit = Fit::quantised;                        // sun
     Splits splits = Splits::practical;               // sun
@@ -91,10 +95,11 @@ struct Shadow {
     float blend = 0.1f;                              // share of a cascade that fades into the next one, 0 to 0.5
 };
 
+/// A light, as far as its maps depend on it.
 struct Light {
     /// Name by which the history recognises the light. Unique, and the same from frame to frame.
     std::uint64_t id = 0;
-    LightKind kind = LightKind::point;
+    LightKind kind = LightKind::point;    // which of the fields below count
     glm::dvec3 position_ws_m{0.0};        // spot and point; finite
     glm::dmat3 rotation_ws{1.0};          // columns right, up, back: sun and spot shine along -back
     float range_m = 0.0f;                 // spot and point: where its light ends; 0: unlimited
@@ -103,24 +108,25 @@ struct Light {
     float sun_radius_rad = 0.0f;          // sun: angular radius, for Filter::soft
     bool enabled = true;                  // false: it gets no maps
     std::uint8_t layers = kAllLayers;     // casters and receivers that share no bit with these take no part
-    Shadow shadow = {};
+    Shadow shadow = {};                   // accuracy and cost of its shadow
 };
 
 /// World-space box around something that is drawn. Corners finite, min <= max. Smaller boxes give tighter maps: a
 /// terrain is better given in pieces.
 struct Box {
-    glm::dvec3 min_ws_m{0.0}, max_ws_m{0.0};
-    bool casts = true;
-    bool receives = true;
-    bool visible = true;  // false: no camera draws it; it may cast all the same
+    glm::dvec3 min_ws_m{0.0}, max_ws_m{0.0};  // least and greatest corner
+    bool casts = true;                        // false: light passes through it
+    bool receives = true;                     // false: no map is fitted to it
+    bool visible = true;                      // false: no camera draws it; it may cast all the same
+    /// Lights that share no bit with these: it casts, or receives, nothing under them.
     std::uint8_t cast_layers = kAllLayers, receive_layers = kAllLayers;
 };
 
 /// Everything that a frame's shadows follow from. The spans are read during the call only.
 struct Scene {
-    std::span<const Camera> cameras;
-    std::span<const Light> lights;
-    std::span<const Box> boxes;
+    std::span<const Camera> cameras;  // all that see the shadows
+    std::span<const Light> lights;    // each id once
+    std::span<const Box> boxes;       // casters and receivers
 };
 
 /// Conventions of your API. The constants below have them for the usual ones; change `reversed_depth` and
@@ -131,14 +137,20 @@ struct Convention {
     bool clip_y_down = false;    // clip y grows downward on the screen
     bool rows_down = false;      // texture coordinate (0, 0) is the upper left corner of a rendered map
 };
+/// OpenGL with glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE).
 inline constexpr Convention kOpenGl{};
+/// Vulkan.
 inline constexpr Convention kVulkan{.clip_y_down = true, .rows_down = true};
+/// Direct3D 11 and 12.
 inline constexpr Convention kDirect3D{.rows_down = true};
+/// Metal.
 inline constexpr Convention kMetal{.rows_down = true};
+/// WebGPU.
 inline constexpr Convention kWebGpu{.rows_down = true};
 
+/// What the device and its API are like.
 struct Settings {
-    Convention convention = kOpenGl;
+    Convention convention = kOpenGl;    // conventions of your graphics API
     std::uint32_t max_map_px = 16384;   // largest edge of a map that your device has; at least 16
     std::uint32_t max_cube_px = 16384;  // the same of a cube's face
 };
@@ -148,31 +160,35 @@ struct Settings {
 /// What became of a light. to_text() has its name, sentence() what it means.
 enum class Status : std::uint8_t {
     // The light has maps.
-    fitted,
-    error_above_target,
-    resolution_clamped,
-    cascades_clamped,
-    splits_invalid,
-    range_invalid,
-    filter_cut,
-    depth_coarse,
+    fitted,              // as requested
+    error_above_target,  // no map that the device has meets max_error_px
+    resolution_clamped,  // the device's limit is below the requested size
+    cascades_clamped,    // more cascades than a light can have
+    splits_invalid,      // split_m, split_lambda or blend is invalid: the default is used
+    range_invalid,       // near_m and far_m are no range: the fitted one is used
+    filter_cut,          // a setting of the filter is invalid, or beyond what its map allows
+    depth_coarse,        // steps of the depth format are wider than texels
     // The light has no map, and shines as if nothing stood in its way.
-    off,
-    invalid_light,
-    no_camera,
-    no_visible_receiver,
-    no_caster,
-    fit_degenerate,
+    off,                  // Light::enabled is false
+    invalid_light,        // a number is out of its range
+    no_camera,            // no usable camera
+    no_visible_receiver,  // no camera sees anything within its range
+    no_caster,            // nothing can darken what is seen
+    fit_degenerate,       // no finite volume to draw
 };
+/// Returns the status' name.
 const char* to_text(Status status);
+/// Returns one sentence for a person: what it means.
 const char* sentence(Status status);
+/// Returns whether a light with this status has maps.
 constexpr bool has_maps(Status status) { return status < Status::off; }
 
 /// Half-open range of indices.
 struct Range {
-    std::uint32_t first = 0, count = 0;
+    std::uint32_t first = 0, count = 0;  // first index, and number of indices
 };
 
+/// How a view projects: parallel, as a spot, or as a face of a cube.
 enum class ViewKind : std::uint8_t { orthographic, perspective, cube_face };
 
 /// Numbers of the offset that keeps a surface from shadowing itself; offset_at() computes it. docs/core.md has the same
@@ -195,15 +211,15 @@ struct View {
     /// Sun: cascade. Point: face of its cube in the order +X -X +Y -Y +Z -Z. Spot: 0; a wide one has five faces, the
     /// one ahead first, and its single view 5 while it changes from one to the other.
     std::uint32_t layer = 0;
-    ViewKind kind = ViewKind::orthographic;
-    bool stays = false;     // its place and its casters do not depend on what the cameras see now
-    bool empty = false;     // no caster darkens what is seen in it: treat it as lit, do not draw it
+    ViewKind kind = ViewKind::orthographic;  // how it projects
+    bool stays = false;                      // its place and its casters do not depend on what the cameras see now
+    bool empty = false;                      // no caster darkens what is seen in it: treat it as lit, do not draw it
     bool mirrored = false;  // drawn as in a mirror: front faces turn clockwise (cube faces, Convention::rows_down)
     glm::dvec3 anchor_ws_m{0.0};       // origin of the float matrices: subtract it in double, or as two floats
     glm::mat4 clip_from_anchor{1.0f};  // draws the map
     glm::mat4 map_from_anchor{1.0f};   // looks it up: (u, v, stored depth) after division by w, u and v in [0, 1]
     glm::dmat4 clip_from_world{1.0};   // the same from world space, for engines with small worlds or doubles
-    glm::dmat4 map_from_world{1.0};
+    glm::dmat4 map_from_world{1.0};    // the same for lookups
     glm::dvec3 axis_u{1.0, 0.0, 0.0}, axis_v{0.0, 1.0, 0.0}, axis_back{0.0, 0.0, 1.0};  // unit; looks along -axis_back
     glm::dvec3 eye_ws_m{0.0};  // perspective and cube_face: where the light stands; orthographic: the anchor
     /// Depth range along -axis_back from eye_ws_m, metres. Orthographic: near_m may be negative.
@@ -211,9 +227,9 @@ struct View {
     /// Sun: distances along the camera's view that the cascade serves. The next one takes over at `to_m`, after a fade
     /// from `fade_from_m` to `fade_to_m`. All 0: it serves whatever lies in it and in none before it.
     double from_m = 0.0, to_m = 0.0, fade_from_m = 0.0, fade_to_m = 0.0;
-    double texel_m = 0.0;        // largest diagonal of a texel across the light, at any visible receiver
-    double edge_error_px = 0.0;  // bound on the distance on screen between a shadow's edge and the true one
-    Bias bias;
+    double texel_m = 0.0;         // largest diagonal of a texel across the light, at any visible receiver
+    double edge_error_px = 0.0;   // bound on the distance on screen between a shadow's edge and the true one
+    Bias bias;                    // numbers for offset_at()
     std::uint32_t receivers = 0;  // number of visible receivers in it
     /// Bits of the cameras that look it up, by index into Scene::cameras. All from the 32nd share the last.
     std::uint32_t cameras = 0;
@@ -225,7 +241,7 @@ struct View {
 
 /// What one light got.
 struct LightFit {
-    Status status = Status::off;
+    Status status = Status::off;      // what became of it
     std::uint32_t map_px = 0;         // edge of each map, texels
     std::uint32_t layers = 0;         // maps to make room for; its views may be fewer
     bool cube = false;                // point: its views are faces of a cube
@@ -243,11 +259,16 @@ struct LightFit {
 class History {
 public:
     History();
+    /// Copies what is remembered.
     History(const History& other);
+    /// Moves it.
     History(History&&) noexcept;
+    /// Copies what is remembered.
     History& operator=(const History& other);
+    /// Moves it.
     History& operator=(History&&) noexcept;
     ~History();
+    /// Returns whether both lead to the same fits.
     bool operator==(const History& other) const;
 
 private:
@@ -261,19 +282,21 @@ private:
 class Fits {
 public:
     Fits();
+    /// Moves the results.
     Fits(Fits&&) noexcept;
+    /// Moves the results.
     Fits& operator=(Fits&&) noexcept;
     ~Fits();
 
-    std::span<const LightFit> lights() const;  // one per light of the scene, same order
-    std::span<const View> views() const;       // all lights' views, by light; cascades near to far
-    std::span<const View> views_of(std::size_t light) const;
+    std::span<const LightFit> lights() const;                 // one per light of the scene, same order
+    std::span<const View> views() const;                      // all lights' views, by light; cascades near to far
+    std::span<const View> views_of(std::size_t light) const;  // one light's views
     /// Returns indices into Scene::boxes.
     std::span<const std::uint32_t> casters_of(const View& view) const;     // drawn into it: each once, rising
     std::span<const std::uint32_t> casters_of(std::size_t light) const;    // able to darken what is seen
     std::span<const std::uint32_t> receivers_of(std::size_t light) const;  // visible, and in the light's range
     std::uint32_t unusable_cameras() const;                                // passed over: numbers outside their ranges
-    std::uint32_t unusable_boxes() const;
+    std::uint32_t unusable_boxes() const;                                  // the same of boxes
 
 private:
     friend void fit_shadows(const Scene&, const Settings&, History&, Fits&);

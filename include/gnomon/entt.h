@@ -18,6 +18,7 @@ namespace gnomon {
 template <class Registry, class Traits, class Target = Shadows>
 class EnttBridge {
 public:
+    /// The registry's own id of an entity.
     using Entity = typename Registry::entity_type;
 
     /// Listens to `registry`, which with `shadows` must outlive the bridge. Entities that exist already are taken where
@@ -53,8 +54,9 @@ public:
         }
         touched_.clear();
     }
-    /// Returns the handle of an entity's light or caster; none: it has none since the last sync().
+    /// Returns the handle of an entity's light; none: it has had none since the last sync().
     LightId light(Entity entity) const { return found(lights_, entity); }
+    /// Returns the handle of an entity's caster; none: it has had none since the last sync().
     CasterId caster(Entity entity) const { return found(casters_, entity); }
 
 private:

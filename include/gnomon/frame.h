@@ -40,8 +40,8 @@ struct Request {
 
 /// Text for the application to draw, because views draw only pictures.
 struct Label {
-    glm::ivec2 at_px{0};  // upper left corner of the text, from the picture's lower left
-    std::string text;
+    glm::ivec2 at_px{0};                   // upper left corner of the text, from the picture's lower left
+    std::string text;                      // one line
     std::optional<glm::vec3> swatch = {};  // sRGB; a square of this colour before the text
 };
 
@@ -82,8 +82,8 @@ struct Why {
 struct ViewReport {
     std::uint32_t layer = 0;                  // cascade or face
     LightState state = LightState::rendered;  // rendered; reused; or skipped: neither drawn nor looked up
-    Reason reason = Reason::none;
-    Why why;
+    Reason reason = Reason::none;             // why it has that state
+    Why why;                                  // numbers behind it
 };
 
 /// Visibility of a light per pixel, kept from an earlier frame instead of looked up (docs/economy.md, "What pixels
@@ -114,30 +114,30 @@ struct FilterReport {
 
 /// Maps of a light, and the work on them in this frame.
 struct LightCounts {
-    std::uint32_t views = 0;        // rendered or reused
-    std::uint32_t views_drawn = 0;  // drawn in this frame
-    std::uint64_t texels = 0;       // size of its map
-    std::uint64_t bytes = 0;        // its memory, kept visibility included
-    std::uint32_t draws = 0, clears = 0;
-    std::uint64_t triangles = 0;
-    std::uint32_t by_depth = 0;  // casters without triangles, where its filter reads those of others
+    std::uint32_t views = 0;              // rendered or reused
+    std::uint32_t views_drawn = 0;        // drawn in this frame
+    std::uint64_t texels = 0;             // size of its map
+    std::uint64_t bytes = 0;              // its memory, kept visibility included
+    std::uint32_t draws = 0, clears = 0;  // draw calls and clears of maps in this frame
+    std::uint64_t triangles = 0;          // drawn into maps in this frame
+    std::uint32_t by_depth = 0;           // casters without triangles, where its filter reads those of others
 };
 
 /// Result of the shadow stages for one light.
 struct LightReport {
-    ecs::Entity entity;
-    std::string name;
-    LightKind kind = LightKind::point;
-    LightState state = LightState::skipped;
-    Reason reason = Reason::none;
-    double predicted_error_px = 0.0;  // worst shadow-edge error over its views
-    bool keeps_max_error = false;     // meets LightShadow::max_error_px, apart from the picture's own pixel
-    LightCounts counts;
-    double cpu_us = 0.0;           // time of the shadow stages for this light alone
+    ecs::Entity entity;                      // its entity
+    std::string name;                        // its Name, made unique
+    LightKind kind = LightKind::point;       // as Light::kind
+    LightState state = LightState::skipped;  // what the frame did for its shadow
+    Reason reason = Reason::none;            // why it has that state
+    double predicted_error_px = 0.0;         // worst shadow-edge error over its views
+    bool keeps_max_error = false;            // meets LightShadow::max_error_px, apart from the picture's own pixel
+    LightCounts counts;                      // maps and work
+    double cpu_us = 0.0;                     // time of the shadow stages for this light alone
     std::optional<double> gpu_us;  // shadow and lighting pass, from the newest measured frame; empty: not measured
-    Why why;
-    KeptReport kept;
-    FilterReport filter;
+    Why why;                       // numbers behind its state
+    KeptReport kept;               // visibility per pixel kept from earlier frames
+    FilterReport filter;           // filter that reads its map
     std::optional<BudgetReport> budget;            // empty: no budget is set, or the light needed no map
     std::uint32_t first_view = 0, view_count = 0;  // range in FrameReport::views; empty if skipped
 };
@@ -156,45 +156,48 @@ struct RayReport {
     std::uint64_t list_bytes = 0;                         // undecided pixels and their results
     std::uint64_t place_bytes = 0;                        // exact surface positions, per pixel
     std::uint64_t sheet_bytes = 0, sheet_host_bytes = 0;  // vertex data for drawing maps of sheets
-    std::uint64_t triangles = 0, instances = 0;
-    std::uint32_t meshes_written = 0;  // deformed meshes in this frame
-    bool instances_written = false;    // something moved in this frame
+    std::uint64_t triangles = 0, instances = 0;           // in the trees
+    std::uint32_t meshes_written = 0;                     // deformed meshes in this frame
+    bool instances_written = false;                       // something moved in this frame
 };
 
+/// Why an entity could not be used; reason_code() spells it.
 enum class DropReason : std::uint8_t {
-    non_finite_transform,
-    zero_rotation,
-    parent_missing,
-    parent_cycle,
-    unknown_mesh,
-    zero_scale,
-    absurd_light,
-    absurd_camera,
-    instances_full,  // the device has no record for it: neither drawn nor casting
-    meshes_full,     // the device has no room for its mesh: neither drawn nor casting
-    buffer_lost,     // a buffer of its mesh is the engine's, and was deleted or made smaller
+    non_finite_transform,  // NaN or infinity in its place
+    zero_rotation,         // a rotation of length 0
+    parent_missing,        // its parent is dead, or has no Transform
+    parent_cycle,          // it is its own ancestor
+    unknown_mesh,          // MeshRef::mesh is beyond the library, or removed
+    zero_scale,            // it has no extent
+    absurd_light,          // a number of its Light is out of range
+    absurd_camera,         // a number of its Camera is out of range
+    instances_full,        // the device has no record for it: neither drawn nor casting
+    meshes_full,           // the device has no room for its mesh: neither drawn nor casting
+    buffer_lost,           // a buffer of its mesh is the engine's, and was deleted or made smaller
 };
+/// Returns the code's name, as reports and files spell it.
 const char* reason_code(DropReason reason);
 
 /// Entity that was unusable in this frame, and the reason. Others are unaffected.
 struct DroppedEntity {
-    ecs::Entity entity = {};
-    std::string name = {};
-    DropReason reason = DropReason::non_finite_transform;
+    ecs::Entity entity = {};                               // its entity
+    std::string name = {};                                 // its Name; empty: none
+    DropReason reason = DropReason::non_finite_transform;  // why it is left out
 };
 
 /// What the last frame did, light by light, and the reasons.
 struct FrameReport {
-    std::vector<LightReport> lights;  // one per entity with a Light, by entity index
-    std::vector<ViewReport> views;    // views of all lights, in their order
-    std::vector<DroppedEntity> dropped;
-    bool still = false;  // no input of shadows changed: the stages' results of the last frame are valid
-    std::uint64_t programs_compiled = 0;  // in this frame, failures included
-    double shadow_cpu_us = 0.0;
-    double cpu_us = 0.0;
-    std::optional<double> gpu_us, shadow_gpu_us;
-    gl::Failure failure = gl::Failure::none;  // failure of an essential resource, or of the submission
-    RayReport rays;
+    std::vector<LightReport> lights;     // one per entity with a Light, by entity index
+    std::vector<ViewReport> views;       // views of all lights, in their order
+    std::vector<DroppedEntity> dropped;  // entities that were unusable
+    bool still = false;                  // no input of shadows changed: the stages' results of the last frame are valid
+    std::uint64_t programs_compiled = 0;          // in this frame, failures included
+    double shadow_cpu_us = 0.0;                   // time of all shadow stages on the CPU, microseconds
+    double cpu_us = 0.0;                          // time of the whole frame on the CPU, microseconds
+    std::optional<double> gpu_us, shadow_gpu_us;  // the same on the GPU; empty: not measured
+    gl::Failure failure = gl::Failure::none;      // failure of an essential resource, or of the submission
+    RayReport rays;                               // resources of lights with rays
+    /// Returns the views of one of its lights.
     std::span<const ViewReport> views_of(const LightReport& light) const {
         return std::span(views).subspan(light.first_view, light.view_count);
     }
@@ -212,8 +215,9 @@ struct FrameReport {
     }
 };
 
+/// What the application chooses for one frame. The defaults suit a game.
 struct FrameSettings {
-    glm::uvec2 viewport_px{1280, 720};
+    glm::uvec2 viewport_px{1280, 720};      // size of the picture, each 1 to the device's largest texture
     std::optional<float> exposure_ev = {};  // EV100; empty: automatic
     bool shadows = true;                    // false: every light is treated as if its LightShadow were disabled
     bool present = false;                   // copy the picture to the window at the end
@@ -235,6 +239,7 @@ struct FrameSettings {
     bool rays = true;  // false: lights with rays get a filtered map instead
 };
 
+/// What is chosen once, when a Frame is created.
 struct FrameOptions {
     bool time_gpu = false;  // measure gpu_us; implied by a budget in milliseconds
     /// Receives messages of the GL implementation about Gnomon's calls. Empty: none.
@@ -258,6 +263,7 @@ public:
     /// Draws one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the
     /// world's changes with its own cursors, independent of other readers.
     void run(ecs::Registry& world, const FrameSettings& settings);
+    /// Returns what the last run() did, light by light. Valid until the next one.
     const FrameReport& report() const;
 
     /// Returns the last frame's picture, a GL_TEXTURE_2D of GL_SRGB8_ALPHA8; 0: none was drawn. It is Gnomon's, and

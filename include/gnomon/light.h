@@ -6,24 +6,50 @@
 /// A light, and what its author sets of its shadow.
 namespace gnomon {
 
-/// Limits of a light's size: a disk of sky of 30 degrees to either side, and a source as large as a town.
-inline constexpr float kMostSunRadius_rad = 0.523598776f, kMostSourceRadius_m = 1.0e4f;
+/// Largest Light::sun_radius_rad: a disk of sky of 30 degrees to either side.
+inline constexpr float kMostSunRadius_rad = 0.523598776f;
+/// Largest Light::source_radius_m: a source as large as a town.
+inline constexpr float kMostSourceRadius_m = 1.0e4f;
 
+/// Kind of a light. `directional`: a sun, with parallel rays. `spot`: a cone from a place. `point`: in all directions.
 enum class LightKind : unsigned char { directional, spot, point };
 
 /// A light as in KHR_lights_punctual: it shines along its own -Z (directional, spot).
+///
+/// Intensities of real lights, lux of a directional one:
+/// - 100 000: sun at noon
+/// - 20 000: sun through thin clouds
+/// - 1 000: overcast day
+/// - 400: sunrise
+/// - 0.25: full moon
+///
+/// Candela of a spot or point light:
+/// - 1: candle
+/// - 65: bulb of 800 lumens
+/// - 1 000: spot in a shop
+/// - 20 000: headlight on full beam
+/// - 1 000 000: searchlight
 struct Light {
+    /// Kind of light: the fields below state for which kinds they count.
     LightKind kind = LightKind::point;
-    glm::vec3 colour{1.0f};               // linear, Rec. 709
-    float intensity = 100.0f;             // directional: lux; spot and point: candela
-    float range_m = 0.0f;                 // spot and point: 0 means unlimited
-    float inner_cone_rad = 0.0f;          // spot: half angle of full intensity, in [0, outer)
-    float outer_cone_rad = 0.785398163f;  // spot: half angle where light ends, in (0, pi/2]
-    /// Radius of the source that shines, metres, 0 to kMostSourceRadius_m. 0: a point, with hard shadows. Filters that
-    /// soften by the source read it: pcss, pcss_moments, exact_soft.
-    float source_radius_m = 0.0f;  // spot and point
-    /// Angular radius of the disk in the sky, radians, 0 to kMostSunRadius_rad. The real sun: 0.00465. 0: a point.
-    float sun_radius_rad = 0.0f;  // directional
+    /// Colour, linear, Rec. 709, each at least 0. It scales the intensity; black switches the light off.
+    glm::vec3 colour{1.0f};
+    /// Strength, at least 0. Directional: lux at the surface; spot and point: candela. Effect: brightness, and which
+    /// lights a budget keeps. 0: the light is off and has no shadow.
+    float intensity = 100.0f;
+    /// Distance at which spot and point lights end, metres. 0: unlimited. Change it to cut cost: what lies beyond
+    /// is neither lit nor in the map.
+    float range_m = 0.0f;
+    /// Half angle of a spot's full intensity, radians, from 0 to below outer_cone_rad. Larger: a harder rim.
+    float inner_cone_rad = 0.0f;
+    /// Half angle at which a spot's light ends, radians, above 0, at most pi/2. Narrower cones have finer shadows.
+    float outer_cone_rad = 0.785398163f;
+    /// Radius of a spot's or point's source, metres, 0 to kMostSourceRadius_m. 0: a point, with hard shadows. Read by
+    /// the filters pcss, pcss_moments and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5.
+    float source_radius_m = 0.0f;
+    /// Angular radius of a sun's disk, radians, 0 to kMostSunRadius_rad. 0: a point. Read by the same filters. The
+    /// real sun: 0.00465; a thin cloud before it: 0.05.
+    float sun_radius_rad = 0.0f;
 };
 
 /// Bits of up to eight shadow layers. Lights, casters and receivers each have a set, by default all layers.
@@ -32,32 +58,33 @@ struct Light {
 ///   unoccluded.
 /// Casters and receivers are not compared with each other, because all casters of a light share its map.
 using ShadowLayers = std::uint8_t;
+/// All eight layers: the default of lights, casters and receivers.
 inline constexpr ShadowLayers kAllShadowLayers = 0xff;
 
-/// How a light's map is read; docs/filters.md compares all. `automatic`: the accuracy target chooses one.
+/// How a light's map is read; the documentation compares all. `automatic`: the accuracy target chooses one.
 enum class ShadowFilter : std::uint8_t {
-    hard,
-    hardware_2x2,
-    pcf_grid,
-    pcf_bilinear,
-    poisson,
-    poisson_rotated,
-    poisson_stratified,
-    cube_grid,
-    cube_directions,
-    sharp_4x4,
-    triangles,
-    exponential,
-    vsm,
-    evsm2,
-    evsm4,
-    moments,
-    pcss,
-    pcss_moments,
-    exact,
-    exact_soft,
-    count,
-    automatic
+    hard,                // one texel, compared: blocky edges, cheapest
+    hardware_2x2,        // one comparison that the sampler blends over 2 x 2 texels
+    pcf_grid,            // a square of comparisons: percentage-closer filtering (PCF) as tutorials have it
+    pcf_bilinear,        // the same of blended comparisons: smoother with fewer taps
+    poisson,             // comparisons in a fixed disk
+    poisson_rotated,     // the disk turned by a random angle
+    poisson_stratified,  // a random part of the disk
+    cube_grid,           // a cube of comparisons, for point lights
+    cube_directions,     // twenty directions, for point lights
+    sharp_4x4,           // edge of a straight line through 4 x 4 texels: hard and smooth
+    triangles,           // edges of the casters' own triangles: the default
+    exponential,         // exponential shadow map (ESM)
+    vsm,                 // variance shadow map (VSM)
+    evsm2,               // exponential variance shadow map, one warp
+    evsm4,               // exponential variance shadow map, two warps
+    moments,             // four moments (MSM)
+    pcss,                // soft by the size of the source: percentage-closer soft shadows
+    pcss_moments,        // the same, by moments
+    exact,               // no wrong pixel: rays where the map is uncertain
+    exact_soft,          // the same for a source with a size
+    count,               // number of filters
+    automatic            // triangles, or exact where only that meets max_error_px
 };
 
 /// Faces of casters that a light draws into its maps. The choice affects only solid meshes: closed, wound outward,
@@ -65,28 +92,35 @@ enum class ShadowFilter : std::uint8_t {
 /// one. A solid with the light inside its bounding box has both sides drawn as well.
 enum class CasterFaces : std::uint8_t { automatic, front, back, both };
 
+/// Largest number of a sun's cascades.
 inline constexpr std::size_t kMaxCascades = 8;
 
 /// Settings of a light's shadow. Add this to a Light's entity and the light casts shadows; remove it and its maps are
 /// freed. The source's size is a field of Light. Optional settings of filters, maps and fits are in ShadowTuning.
 struct LightShadow {
-    /// Switch of the light's shadows.
+    /// Switch of the light's shadows. false: the light shines through everything, and its maps are freed.
     bool enabled = true;
-    /// Filter that reads the map. `automatic`: triangles, which measures best (docs/accuracy.md). It becomes exact
-    /// where max_error_px is set and no map with triangles meets it.
+    /// Filter that reads the map. `automatic`: triangles, which measures best. It becomes exact
+    /// where max_error_px is set and no map with triangles meets it. Change it for soft shadows (pcss, exact_soft), for
+    /// edges without any error (exact), or for speed (hardware_2x2).
     ShadowFilter filter = ShadowFilter::automatic;
-    /// Largest allowed error of a shadow's edge on screen, pixels. 0: 1, as far as maps of default size meet it.
+    /// Largest allowed error of a shadow's edge on screen, pixels, 0 to 10 000. 0: 1, as far as maps of default size
+    /// meet it. Smaller: larger maps or a slower filter. Larger: less memory and time.
     float max_error_px = 0.0f;
-    /// Edge of one map, cascade or cube face, texels. 0: chosen by the system.
+    /// Edge of one map, cascade or cube face, texels, 0 to 65 536. 0: chosen by the system for max_error_px. Set it to
+    /// fix the memory; more than the device allows is reported (resolution_clamped).
     std::uint32_t resolution_px = 0;
-    /// Number of a sun's cascades, at most kMaxCascades. 0: as few as meet the target, one to four.
+    /// Number of a sun's cascades, 0 to kMaxCascades. 0: as few as meet the target, one to four. More: finer shadows
+    /// near the camera, and more draws.
     std::uint32_t cascades = 0;
-    /// Additional error allowed to edges of a stale map, pixels. A map that shows moved casters at their old place is
-    /// kept within this bound (docs/economy.md). 0: a map is drawn whenever a caster moves. Needs BiasMode::automatic.
+    /// Additional error allowed to edges of a stale map, pixels, 0 to 100. A map that shows moved casters at their old
+    /// place is kept within this bound. 0: a map is drawn whenever a caster moves. Needs BiasMode::automatic. Raise it
+    /// where many things move slowly or far away.
     float refresh_error_px = 0.0f;
-    /// Faces of solid casters in the maps. `automatic`: front, which measures best (docs/accuracy.md).
+    /// Faces of solid casters in the maps. `automatic`: front, which measures best. Change it to compare methods.
     CasterFaces caster_faces = CasterFaces::automatic;
-    /// Layers of the casters and receivers that take part in this light's shadows, a bit each.
+    /// Layers of the casters and receivers that take part in this light's shadows, a bit each. Change it so that some
+    /// things cast no shadow, or get none, under this light alone.
     ShadowLayers layers = kAllShadowLayers;
     bool operator==(const LightShadow&) const = default;
 };

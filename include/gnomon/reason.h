@@ -6,12 +6,13 @@ namespace gnomon {
 /// What a frame did for a light's shadow. rendered: a map was drawn. reused: earlier maps are valid. degraded: it has a
 /// shadow, with less than was requested. skipped: it is unshadowed; Reason has the cause.
 enum class LightState : std::uint8_t { rendered, reused, degraded, skipped };
+/// Returns the state's name, as reports and files spell it.
 const char* to_text(LightState state);
 
 /// Why a light, or a view of it, has the state that it has. Codes are stable: new ones are added before `count`, none
 /// changes its meaning within a major version.
 enum class Reason : std::uint8_t {
-    none,
+    none,                 // the shadow is as requested
     no_light_shadow,      // the light has no LightShadow component
     shadows_off,          // LightShadow::enabled is false
     light_off,            // no intensity

@@ -13,18 +13,19 @@
 /// Entity registry with sparse sets, versioned ids, views and change lists.
 namespace gnomon::ecs {
 
+/// What happened to a component of an entity.
 enum class ChangeKind : std::uint8_t { added, changed, removed };
 
 /// Entry of a component type's log.
 struct Change {
-    Entity entity;
-    ChangeKind kind = ChangeKind::changed;
+    Entity entity;                          // may be dead by now
+    ChangeKind kind = ChangeKind::changed;  // what happened
     bool operator==(const Change&) const = default;
 };
 
 /// Position of a reader in a component type's log, one per reader and type. A default cursor has read nothing.
 struct ChangeCursor {
-    std::uint64_t next = 0;
+    std::uint64_t next = 0;  // sequence number of the first entry that is not yet read
 };
 
 /// Minimum length of a log. A log keeps the newest entries, as many as there are components of its type or this many.
@@ -33,8 +34,8 @@ inline constexpr std::size_t kLeastKept = 256;
 /// Entries since the reader's cursor. `complete` is false if older entries are already dropped. The reader must then
 /// look at every component again, which is no more than it missed.
 struct Changes {
-    std::span<const Change> entries;
-    bool complete = true;
+    std::span<const Change> entries;  // oldest first
+    bool complete = true;             // false: older entries are gone
 };
 
 namespace detail {
@@ -134,6 +135,7 @@ std::uint32_t type_number() {
 /// type is added or removed. Null or dead entities are a programmer error (assert), except where stated.
 class Registry {
 public:
+    /// Makes an entity without components.
     Entity create() {
         if (!free_.empty()) {
             const std::uint32_t index = free_.back();
@@ -153,7 +155,9 @@ public:
         free_.push_back(e.index);
     }
 
+    /// Returns whether the entity exists.
     bool alive(Entity e) const { return e.index < versions_.size() && versions_[e.index] == e.version; }
+    /// Returns the number of entities that exist.
     std::size_t alive_count() const { return versions_.size() - free_.size(); }
 
     /// Adds the component, or replaces it and logs a change.
@@ -163,6 +167,7 @@ public:
         return storage<T>().emplace(e, std::move(value));
     }
 
+    /// Returns whether the entity is alive and has a T.
     template <class T>
     bool has(Entity e) const {
         const auto* s = find<T>();

@@ -13,7 +13,7 @@ enum class FilterSeed : std::uint8_t { screen, world };
 /// Formula of the offset against self-shadowing. `automatic` derives the smallest offset that keeps a plane from
 /// shadowing itself. The others serve comparison; docs/bias.md has their formulas.
 enum class BiasMode : std::uint8_t {
-    automatic,
+    automatic,          // derived per pixel; nothing to set
     constant,           // offset_m along the light
     slope,              // constant, plus offset_texel texels times the tangent of the angle between normal and light
     normal_offset,      // offset_m along the light, offset_texel texels times the sine along the normal
@@ -96,6 +96,7 @@ struct ShadowTuning {
     };
     /// The offset against self-shadowing.
     struct Bias {
+        /// Formula of the offset. Change it to compare with other engines' shadows.
         BiasMode mode = BiasMode::automatic;
         /// Offset along the light in modes that use it, metres, at least 0. Negative or NaN: the default.
         float offset_m = 0.0f;
@@ -105,6 +106,7 @@ struct ShadowTuning {
     };
     /// The views from the light.
     struct Projection {
+        /// Projection onto the map. Change it for a sun from one eye.
         LightProjection kind = LightProjection::automatic;
         /// Distance of a sun's eye from the middle of the visible receivers, toward the light, metres. A perspective
         /// view looks from the eye. 0: the distance at which eye_angle_rad contains all of them.
@@ -123,6 +125,7 @@ struct ShadowTuning {
     struct Cascades {
         /// Fit of the cascades' maps; docs/fits.md compares the three.
         ShadowFit fit = ShadowFit::quantised;
+        /// Where cascades end. `practical` is logarithmic where the number of cascades is chosen by the system.
         CascadeSplits splits = CascadeSplits::practical;
         /// Mixture of practical, seen and sampled splits, 0 (uniform) to 1 (logarithmic).
         float split_lambda = 0.7f;
@@ -139,7 +142,9 @@ struct ShadowTuning {
     };
     /// How maps are stored and drawn.
     struct Maps {
+        /// Format of depths. Change it to halve the memory of short ranges.
         DepthFormat depth_format = DepthFormat::d32f;
+        /// Route of a cube's faces. Change it only if another one measures faster on your device.
         CubeRoute cube_route = CubeRoute::automatic;
         bool operator==(const Maps&) const = default;
     };
@@ -152,13 +157,13 @@ struct ShadowTuning {
         bool keep_visibility = true;
         bool operator==(const Reuse&) const = default;
     };
-    Kernel kernel = {};
-    Moments moments = {};
-    Bias bias = {};
-    Projection projection = {};
-    Cascades cascades = {};
-    Maps maps = {};
-    Reuse reuse = {};
+    Kernel kernel = {};          // taps and spread of filters
+    Moments moments = {};        // prefiltered maps
+    Bias bias = {};              // offset against self-shadowing
+    Projection projection = {};  // views from the light
+    Cascades cascades = {};      // where a sun's maps lie
+    Maps maps = {};              // how maps are stored and drawn
+    Reuse reuse = {};            // what is kept from frame to frame
     bool operator==(const ShadowTuning&) const = default;
 };
 

@@ -25,13 +25,17 @@ namespace gnomon {
 /// Handle of something added. Valid until that is removed; a removed one never names anything again.
 template <class Kind>
 struct Handle {
-    std::uint32_t index = 0xffffffffu;
-    std::uint32_t version = 0;  // generation: differs from earlier uses of the index
+    std::uint32_t index = 0xffffffffu;  // slot; this value: none
+    std::uint32_t version = 0;          // generation: differs from earlier uses of the index
+    /// Returns whether the handle was ever given out.
     explicit operator bool() const { return index != 0xffffffffu; }
     bool operator==(const Handle&) const = default;
 };
+/// Handle of a mesh.
 using MeshId = Handle<struct MeshKind>;
+/// Handle of a caster or a drawable.
 using CasterId = Handle<struct CasterKind>;
+/// Handle of a light.
 using LightId = Handle<struct ShadowLightKind>;
 
 /// Alpha test of a mesh: light passes where alpha is below the cutoff. Repeats beyond [0, 1], filtered linearly.
@@ -47,44 +51,45 @@ struct MeshDesc {
     std::span<const glm::vec3> positions_m = {};  // mesh space, metres, finite
     std::span<const std::uint32_t> indices = {};  // three per triangle, counter-clockwise from outside
     bool two_sided = false;  // seen from inside too: never counts as solid. Open meshes cast from both sides either way
-    AlphaMask mask = {};
+    AlphaMask mask = {};     // holes of leaves and fences; needs uvs
     std::span<const glm::vec2> uvs = {};  // one per position, for the mask; else empty
 };
 
 /// Box in world space, metres, unless a field names another space.
 struct Bounds {
-    glm::dvec3 min_m{0.0}, max_m{0.0};
+    glm::dvec3 min_m{0.0}, max_m{0.0};  // least and greatest corner, finite
 };
 
 /// Components of a position in a vertex buffer: three of them. snorm16 and unorm16 stand for [-1, 1] and [0, 1]. Their
 /// scale belongs into CasterDesc::world_from_mesh.
 enum class PositionFormat : std::uint8_t { float32, float16, snorm16, unorm16 };
+/// Bits of an index in a buffer.
 enum class IndexSize : std::uint8_t { u32, u16 };
 
 /// Triangles in buffers of your own, which depth passes draw from there: nothing is copied. Filters that read triangles
 /// treat them by depth (LightStatus::by_depth), visibility queries do not see them. They have no alpha mask. The
 /// buffers live, unmapped or mapped persistently, until the mesh is removed.
 struct BufferMeshDesc {
-    std::string_view name = {};                    // in error messages and captures
-    unsigned vertex_buffer = 0, index_buffer = 0;  // OpenGL's names; may be the same
-    std::uint32_t stride_bytes = 12;               // from vertex to vertex, at most 2048
-    std::uint64_t position_offset_bytes = 0;       // from the buffer's start to vertex 0's position
-    PositionFormat format = PositionFormat::float32;
-    std::uint32_t vertex_count = 0;  // indices with base_vertex are below; that is not checked
-    IndexSize index_size = IndexSize::u32;
-    std::uint32_t first_index = 0, index_count = 0;  // three per triangle
-    std::int32_t base_vertex = 0;                    // added to each index
-    Bounds bounds = {};                              // mesh space; contains all positions
+    std::string_view name = {};                       // in error messages and captures
+    unsigned vertex_buffer = 0, index_buffer = 0;     // OpenGL's names; may be the same
+    std::uint32_t stride_bytes = 12;                  // from vertex to vertex, at most 2048
+    std::uint64_t position_offset_bytes = 0;          // from the buffer's start to vertex 0's position
+    PositionFormat format = PositionFormat::float32;  // type of its three components
+    std::uint32_t vertex_count = 0;                   // indices with base_vertex are below; that is not checked
+    IndexSize index_size = IndexSize::u32;            // as glDrawElements takes them
+    std::uint32_t first_index = 0, index_count = 0;   // three per triangle
+    std::int32_t base_vertex = 0;                     // added to each index
+    Bounds bounds = {};                               // mesh space; contains all positions
 };
 
 /// Placed mesh: a caster, a receiver, or both. Maps cover declared receivers alone: declare every surface that shadows
 /// shall fall on, the ground too.
 struct CasterDesc {
-    MeshId mesh = {};
-    glm::dmat4 world_from_mesh{1.0};  // affine; may mirror, scale and shear
-    bool casts = true;
-    bool receives = true;  // maps are fitted to it; a mask darkens its pixels either way
-    ShadowLayers cast_layers = kAllShadowLayers;
+    MeshId mesh = {};                                // triangles; none: dropped
+    glm::dmat4 world_from_mesh{1.0};                 // affine; may mirror, scale and shear
+    bool casts = true;                               // false: light passes through it
+    bool receives = true;                            // maps are fitted to it; a mask darkens its pixels either way
+    ShadowLayers cast_layers = kAllShadowLayers;     // it darkens under lights that share a bit
     ShadowLayers receive_layers = kAllShadowLayers;  // for fits; by pixel: gnomon_takes_shadow() in lookup_glsl()
 };
 
@@ -95,31 +100,31 @@ struct CasterDesc {
 struct DrawableView {
     glm::mat4 clip_from_world{1.0f};   // exact enough near the world's origin
     glm::mat4 clip_from_anchor{1.0f};  // takes positions minus anchor_m, subtracted in double: exact anywhere
-    glm::dvec3 anchor_m{0.0};
-    std::uint32_t size_px = 0;  // edge of the map
-    LightId light;
+    glm::dvec3 anchor_m{0.0};          // world, metres
+    std::uint32_t size_px = 0;         // edge of the map
+    LightId light;                     // owner of the map
 };
 
 /// Caster that the engine draws: wind, terrain, tessellation, GPU skinning, particles. Filters that read triangles
 /// treat it by depth (docs/embedding.md). Visibility queries do not see it.
 struct DrawableDesc {
     std::function<void(const DrawableView&)> draw =
-        {};              // called within render(), for each map that shows it; must not throw, nor call this object
-    Bounds bounds = {};  // contains all that is drawn
-    bool casts = true;
-    bool receives = true;
-    ShadowLayers cast_layers = kAllShadowLayers;
-    ShadowLayers receive_layers = kAllShadowLayers;
+        {};                // called within render(), for each map that shows it; must not throw, nor call this object
+    Bounds bounds = {};    // contains all that is drawn
+    bool casts = true;     // false: it only receives
+    bool receives = true;  // false: no map is fitted to it
+    ShadowLayers cast_layers = kAllShadowLayers;     // as CasterDesc::cast_layers
+    ShadowLayers receive_layers = kAllShadowLayers;  // as CasterDesc::receive_layers
 };
 
 /// Light. Its kind, range, cone and size decide where its shadow falls. Colour and intensity decide whether it is on,
 /// and its rank under a budget. They may stay at their defaults where the engine has other units.
 struct LightDesc {
     std::string name = {};  // in captures and messages; empty: "light" and a number; a repeated one gets .1, .2, …
-    Light light = {};
+    Light light = {};       // kind, colour, intensity, range, cone and size
     glm::dvec3 position_m{0.0};            // spot and point: world
     glm::dvec3 direction{0.0, -1.0, 0.0};  // sun and spot: in which it shines, world; any length above 0
-    LightShadow shadow = {};
+    LightShadow shadow = {};               // accuracy and cost of its shadow
 };
 
 /// Range of depths in clip space after division by w. minus_one_to_one is OpenGL's default; zero_to_one is what
@@ -138,7 +143,7 @@ struct View {
     /// Projection, as the depths were drawn with it, jitter included. Perspective or orthographic; reversed, infinite
     /// and off-centre ones are read as they are. A flipped y or an oblique near plane is refused ("view.projection").
     glm::dmat4 clip_from_view{1.0};
-    ClipDepth clip_depth = ClipDepth::minus_one_to_one;
+    ClipDepth clip_depth = ClipDepth::minus_one_to_one;  // as the depths were drawn
     /// GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE of D16, D24 or D32F, with stencil or without. Pixel (0, 0) is the
     /// lower left one. The window's own depths and renderbuffers cannot be read.
     unsigned depth_texture = 0;
@@ -146,8 +151,8 @@ struct View {
     /// The same kind of texture with geometric normals, and as many samples. 0: they are derived from the depths, less
     /// exactly.
     unsigned normal_texture = 0;
-    NormalFormat normal_format = NormalFormat::snorm;
-    NormalSpace normal_space = NormalSpace::world;
+    NormalFormat normal_format = NormalFormat::snorm;  // how normal_texture stores them
+    NormalSpace normal_space = NormalSpace::world;     // along which axes
     /// Lights of the mask, a layer each, in this order. A handle that names no usable light has a layer of 1. Empty:
     /// all usable lights; a light's layer is then lookup_index().
     std::span<const LightId> lights = {};
@@ -179,7 +184,7 @@ struct Mask {
 
 /// What became of a light's shadow in the last render(), over all views.
 struct LightStatus {
-    LightState state = LightState::skipped;
+    LightState state = LightState::skipped;         // the worst over all views
     Reason reason = Reason::none;                   // reason_code() names it, reason_text() explains it
     double predicted_error_px = 0.0;                // bound on how far its edges are off, pixels
     bool keeps_max_error = false;                   // predicted_error_px is within LightShadow::max_error_px
@@ -194,7 +199,7 @@ struct LightStatus {
 /// Caster or light left out of the last render(). All else is unaffected; it returns once the cause is gone.
 struct Dropped {
     CasterId caster;  // none: `light` is meant
-    LightId light;
+    LightId light;    // none: `caster` is meant
     /// Stable code. Casters: "unknown_mesh", "meshes_full" (no device memory), "buffer_lost" (deleted, or made too
     /// small), "non_finite_transform" (also bounds that are no box), "zero_scale" (no area). Lights: "absurd_light"
     /// (numbers out of range), "non_finite_transform", "zero_rotation" (no direction).
@@ -203,12 +208,12 @@ struct Dropped {
 
 /// Totals of the last render().
 struct RenderStatus {
-    bool still = false;  // nothing changed since the last call: no map was drawn
-    std::uint32_t maps_drawn = 0, draws = 0;
-    std::uint64_t bytes = 0;       // memory of all maps
-    double cpu_us = 0.0;           // time of the call
-    std::optional<double> gpu_us;  // time of all that it submitted; empty: not measured yet
-    std::string_view failure;      // code of the device's failure; empty: none
+    bool still = false;                       // nothing changed since the last call: no map was drawn
+    std::uint32_t maps_drawn = 0, draws = 0;  // maps drawn, and draw calls into them
+    std::uint64_t bytes = 0;                  // memory of all maps
+    double cpu_us = 0.0;                      // time of the call
+    std::optional<double> gpu_us;             // time of all that it submitted; empty: not measured yet
+    std::string_view failure;                 // code of the device's failure; empty: none
 };
 
 /// Limits on all shadows together. Over a limit, the least visible lights get less, and their status has the reason.
@@ -220,7 +225,7 @@ struct Budget {
 /// What an engine leaves to the GLSL that looks up all lights in one program (Shadows::lookup_glsl()). Its numbers are
 /// written into the text.
 struct LookupOptions {
-    std::uint32_t first_texture_unit = 16;
+    std::uint32_t first_texture_unit = 16;  // first of texture_unit_count units in a row
     /// At least 5: three for buffers, two for each size and format of maps. Each counts as a sampler of your shader;
     /// OpenGL guarantees 16.
     std::uint32_t texture_unit_count = 12;
@@ -234,8 +239,9 @@ struct LookupOptions {
     std::vector<ShadowFilter> filters = {};
 };
 
+/// What is chosen once, when a Shadows is created.
 struct ShadowsOptions {
-    Budget budget = {};
+    Budget budget = {};  // as set_budget() sets it; none by default
     /// Lets one program look up all lights: maps become layers of shared arrays. Empty: masks alone.
     std::optional<LookupOptions> lookup = {};
     bool time_gpu = false;  // measure gpu_us by timer queries; implied by a budget in milliseconds
@@ -269,10 +275,13 @@ public:
     /// Removes a mesh. Casters that still have it are dropped until they are removed or have another.
     void remove(MeshId mesh);
 
+    /// Adds a placed mesh. Maps that show it are drawn again.
     CasterId add_caster(const CasterDesc& caster);
     /// Moves a caster. Maps that show it are drawn again if the matrix differs.
     void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
+    /// Replaces all fields of a caster. What is equal costs nothing.
     void set_caster(CasterId caster, const CasterDesc& desc);
+    /// Removes a caster or a drawable.
     void remove(CasterId caster);
 
     /// Adds a caster that the engine draws. redraw() and remove() take it; to change other fields, remove it and add
@@ -285,13 +294,16 @@ public:
     void redraw(CasterId drawable, const Bounds& bounds,
                 double moves_at_most_m = std::numeric_limits<double>::infinity());
 
+    /// Adds a light. Its shadow is in the next render().
     LightId add_light(const LightDesc& light);
     /// Changes a light. What is equal costs nothing.
     void set_light(LightId light, const LightDesc& desc);
     /// Sets what few need: filters' taps, fits, formats (gnomon/shadow_tuning.h).
     void tune(LightId light, const ShadowTuning& tuning);
+    /// Removes a light and frees its maps.
     void remove(LightId light);
 
+    /// Sets the limits from the next render() on.
     void set_budget(const Budget& budget);
 
     /// Draws the maps that changed, and a mask per view, in the same order. The masks stay valid until the next call.
@@ -301,7 +313,7 @@ public:
     /// Does the same for one view.
     Mask render(const View& view) { return render(std::span(&view, 1)).front(); }
 
-    /// Returns GLSL (4.30 or newer, without #version) that looks up any number of lights, for forward, clustered,
+    /// Returns GLSL (4.30 or newer, without a version line) that looks up any number of lights, for forward, clustered,
     /// blended and volume shaders. Paste it into any stage; it stays the same for the life of the object. It gives:
     /// - `int gnomon_light_count()`
     /// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the share of the light that arrives. light:
@@ -322,7 +334,9 @@ public:
     /// Returns a sentence for a person: which filter of the text looks the light up for that view, or why it is lit.
     std::string_view lookup_status(LightId light, std::size_t view = 0) const;
 
+    /// Returns what became of a light in the last render().
     LightStatus status(LightId light) const;
+    /// Returns the totals of the last render().
     const RenderStatus& status() const;
     /// Lists what the last render() had to leave out.
     std::span<const Dropped> dropped() const;

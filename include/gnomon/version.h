@@ -4,7 +4,9 @@ namespace gnomon {
 
 /// Version, as docs/versions.md defines it.
 struct Version {
-    int major = 0, minor = 0, patch = 0;
+    int major = 0;  // breaks users' code or files
+    int minor = 0;  // adds; before 1.0 it may break
+    int patch = 0;  // mends
     bool operator==(const Version&) const = default;
 };
 

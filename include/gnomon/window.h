@@ -11,10 +11,11 @@
 /// engine brings its own.
 namespace gnomon {
 
+/// What a window, or a picture without one, is like.
 struct WindowOptions {
-    std::string title = "Gnomon";
-    glm::uvec2 size_px{1280, 720};
-    bool headless = false;        // no window: EGL, for machines without a display
+    std::string title = "Gnomon";   // shown in its frame
+    glm::uvec2 size_px{1280, 720};  // picture's size, each above 0
+    bool headless = false;          // no window: EGL, for machines without a display
     std::uint32_t frames = 0;     // number of frames until begin_frame() returns false; 0: until the window is closed.
                                   // Headless: at least 1
     std::string screenshot = {};  // PNG of the last frame; empty: none
@@ -44,6 +45,7 @@ public:
     /// Shows the picture, and writes the screenshot in the last frame. Error: "output.write".
     Result<bool> end_frame();
 
+    /// Returns the picture's size in this frame.
     glm::uvec2 size_px() const;
     double time_s() const;            // since the first frame; headless, or with a number of frames: 1/60 s per frame
     unsigned framebuffer() const;     // with both textures

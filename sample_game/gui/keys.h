@@ -20,7 +20,7 @@ struct KeyRow {
     const char* keys;
     const char* meaning;  // one line
 };
-/// Returns all keys: the ones that show shadows first.
+/// Returns all keys, first the keys that show shadows.
 std::span<const KeyRow> key_table();
 
 /// Returns the keys as --help prints them.

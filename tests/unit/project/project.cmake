@@ -15,6 +15,9 @@ add_test(NAME Launcher.KeepsItsPromises
 set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.CodeReadsTheirFacts Tables.AComparisonIsFound
   Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports SamePictures.FindsWhatDiffers
   Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)
+add_test(NAME Reference.HasNoWarning
+  COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/reference_test.sh ${PROJECT_SOURCE_DIR})
+set_tests_properties(Reference.HasNoWarning PROPERTIES LABELS unit TIMEOUT 120 SKIP_RETURN_CODE 77)
 # Pages: links, pictures, commands, figures that stand twice, blocks that programs fill.
 add_test(NAME Pages.AFaultIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_pages.py --self-test)
 add_test(NAME Pages.AChangedBlockIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/generate_pages.py --self-test)
