@@ -18,6 +18,9 @@ set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.Co
 add_test(NAME Reference.HasNoWarning
   COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/reference_test.sh ${PROJECT_SOURCE_DIR})
 set_tests_properties(Reference.HasNoWarning PROPERTIES LABELS unit TIMEOUT 120 SKIP_RETURN_CODE 77)
+add_test(NAME Release.HasItsEntry COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_release.py)
+add_test(NAME Release.AMissingEntryIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_release.py --self-test)
+set_tests_properties(Release.HasItsEntry Release.AMissingEntryIsFound PROPERTIES LABELS unit TIMEOUT 60)
 # Pages: links, pictures, commands, figures that stand twice, blocks that programs fill.
 add_test(NAME Pages.AFaultIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_pages.py --self-test)
 add_test(NAME Pages.AChangedBlockIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/generate_pages.py --self-test)
