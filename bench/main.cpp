@@ -21,6 +21,7 @@
 #include "bench/flicker/flicker.h"
 #include "bench/frame/frame_compare.h"
 #include "bench/frame/frame_times.h"
+#include "bench/pictures/strip.h"
 #include "bench/queries/queries.h"
 #include "bench/scaling/light_count.h"
 #include "bench/scaling/redraws.h"
@@ -192,6 +193,18 @@ int run_filters(const Arguments& arguments) {
     return 0;
 }
 
+int run_pictures(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    const auto strip = make_strip(*stage.value());
+    if (!strip) return fail(strip.error());
+    if (auto error = write_strip(strip.value(), arguments.plot)) return fail(*error);
+    const std::string table = strip_table(strip.value());
+    if (auto error = put_out(arguments, table, strip_json(strip.value()))) return fail(*error);
+    if (auto error = put_marked(arguments, "strip", table)) return fail(*error);
+    return 0;
+}
+
 int run_redraws(const Arguments& arguments) {
     const auto table = redraws_table(arguments.stage, arguments.stability.frames);
     if (!table) return put_table(table);
@@ -248,6 +261,8 @@ constexpr Command kCommands[] = {
     {"stability", "how shadows flicker while only the camera moves", add_stability, run_stability},
     {"drawings", "how the maps of each fit lie, as SVG files", add_drawings, run_drawings},
     {"filters", "every filter on one scene beside the truth: taps, error", add_filters, run_filters},
+    {"pictures", "one view with a tutorial's shadow map, with Gnomon and by rays: a strip, wrong pixels in red",
+     add_pictures, run_pictures},
     {"culling", "what finding receivers and casters and fitting to them costs", add_culling, run_culling_benchmarks},
     {"demand", "what shadows cost by the number of lights, economy on and off", add_demand, run_demand},
     {"budget", "what a unit of each kind of work takes that budgets reckon with", add_budget, run_budget_speeds},

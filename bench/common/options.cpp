@@ -101,6 +101,12 @@ void add_filters(CLI::App& command, Arguments& arguments) {
                  "pictures of a disk, figures, figures of a disk");
 }
 
+void add_pictures(CLI::App& command, Arguments& arguments) {
+    add_scene(command, arguments);
+    command.add_option("--out", arguments.plot, "F.png: the strip")->required();
+    add_markdown(command, arguments, "page whose text between <!-- strip --> and <!-- end of strip --> is replaced");
+}
+
 void add_culling(CLI::App& command, Arguments& arguments) {
     command.add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
 }

@@ -59,9 +59,9 @@ std::vector<std::uint8_t> part_of(glm::uvec2 low, glm::uvec2 part_px, std::uint3
 
 }  // namespace
 
-glm::uvec2 shown_part(const oracle::LightTruth& truth, glm::uvec2 size_px) {
+glm::uvec2 shown_part(const oracle::LightTruth& truth, glm::uvec2 size_px, glm::uvec2 part_px) {
     const Sums edges(truth, size_px);
-    const glm::uvec2 part_px = glm::min(kShownPart_px, size_px);
+    part_px = glm::min(part_px, size_px);
     glm::uvec2 best{0, 0};
     std::int64_t most = -1;
     for (std::uint32_t y = 0; y + part_px.y <= size_px.y; y += kPlaceStep_px)

@@ -16,7 +16,7 @@ inline constexpr glm::uvec2 kShownPart_px{240, 135};
 
 /// Returns the lower corner of the part with most edges of that light's true shadow, rows from the bottom. It depends
 /// on the truth alone, so that all rows show the same part.
-glm::uvec2 shown_part(const oracle::LightTruth& truth, glm::uvec2 size_px);
+glm::uvec2 shown_part(const oracle::LightTruth& truth, glm::uvec2 size_px, glm::uvec2 part_px = kShownPart_px);
 
 /// Pictures of one light in one row: files <stem>_render.jpg, _shown.png and _error.png. The truths of a light are in
 /// <light>_point.png and _disk.png.
