@@ -114,8 +114,8 @@ std::string ms_words(std::optional<float> ms) {
 }
 
 void draw_points(const std::vector<ContractPoint>& points, std::optional<float> now) {
-    constexpr const char* kColumns[] = {"max_error_px", "drawn ms",     "kept ms", "texels",
-                                        "KiB",          "predicted px", "frames"};
+    constexpr const char* kColumns[] = {"max_error_px",          "drawn ms", "reused ms", "texels", "KiB",
+                                        "edges off, at most px", "frames"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("settings", static_cast<int>(std::size(kColumns)), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);
@@ -143,6 +143,10 @@ void draw_curve(const std::vector<ContractPoint>& points, std::optional<float> n
     float most = 0.0f;
     for (const ContractPoint& point : points)
         most = std::max({most, point.drawn_ms.value_or(0.0f), point.kept_ms.value_or(0.0f)});
+    char words[96];
+    std::snprintf(words, sizeof words, "up: 0 to %.2f ms on the GPU; right: max_error_px",
+                  static_cast<double>(kAbove * most));
+    ImGui::TextUnformatted(most > 0.0f ? words : "no times measured yet");
     Plot plot(kPlot_px, kAbove * most);
     const auto across = [](float px) {
         return static_cast<float>(contract_step(px) - kLeastContractStep) /
@@ -154,9 +158,11 @@ void draw_curve(const std::vector<ContractPoint>& points, std::optional<float> n
         if (point.drawn_ms) plot.dot(across(point.max_error_px), *point.drawn_ms, kDrawn);
     }
     if (now && *now > 0.0f) plot.dot(across(*now), 0.0f, kNow);
-    char words[64];
-    std::snprintf(words, sizeof words, "0 ... %.2f ms on the GPU", static_cast<double>(kAbove * most));
-    plot.label(most > 0.0f ? words : "no times measured yet");
+    ImGui::TextColored(ImColor(kDrawn), "maps drawn");
+    ImGui::SameLine();
+    ImGui::TextColored(ImColor(kKept), "maps reused");
+    ImGui::SameLine();
+    ImGui::TextColored(ImColor(kNow), "now");
 }
 
 }  // namespace
@@ -166,7 +172,7 @@ void note_contract(const GameWorld& world, const FrameReport& report, ContractSt
 }
 
 void draw_contract(GameWorld& world, ContractState& state) {
-    if (!ImGui::CollapsingHeader("accuracy for time")) return;
+    if (!ImGui::CollapsingHeader("accuracy against time")) return;
     ImGui::PushItemWidth(0.6f * kPlot_px.x);
     draw_light_choice(world, state);
     draw_presets(world, state);

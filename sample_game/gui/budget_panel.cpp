@@ -36,7 +36,7 @@ std::string from_to(std::uint64_t wanted, std::uint64_t given) {
 /// Draws a table of lights: what each requested, what the budget left it, and the reason.
 void draw_grants(const FrameReport& report) {
     constexpr const char* kColumns[] = {"light", "state", "reason", "px",         "views",
-                                        "KiB",   "us",    "taps",   "drawn 1 in", "harm %"};
+                                        "KiB",   "us",    "taps",   "drawn 1 in", "wrong % (model)"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("grants", static_cast<int>(std::size(kColumns)), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);
@@ -70,7 +70,7 @@ void draw_budget(const FrameReport& report, shadow::ShadowBudget& budget) {
     if (!ImGui::CollapsingHeader("budgets")) return;
     draw_sliders(budget);
     if (budget == shadow::ShadowBudget{})
-        ImGui::TextUnformatted("every light gets what it asks for");
+        ImGui::TextUnformatted("every light gets what it requests");
     else
         draw_grants(report);
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sample_game/gui/gui.h"
+#include "sample_game/gui/keys.h"
 
 namespace gnomon::game {
 namespace {
@@ -32,11 +33,12 @@ void draw_bar(ImDrawList& list, const Bar& bar, ImVec2 at, ImVec2 size) {
 struct Words {
     const char *large, *small;
     ImU32 colour;
+    float top = 0.34f;  // share of the picture's height
 };
 Words words_of(Phase phase) {
     switch (phase) {
         case Phase::paused:
-            return {"PAUSED", "P goes on, R starts again", kFrame};
+            return {"PAUSED", "P goes on, R starts again", kFrame, 0.7f};
         case Phase::won:
             return {"UNSEEN - YOU WIN", "R starts again", kWon};
         case Phase::lost:
@@ -53,10 +55,41 @@ void draw_words(ImDrawList& list, const Words& text, glm::vec2 size_px) {
     ImFont* font = ImGui::GetFont();
     const ImVec2 wide = font->CalcTextSizeA(large, size_px.x, 0.0f, text.large);
     const ImVec2 wide_2 = font->CalcTextSizeA(small, size_px.x, 0.0f, text.small);
-    const float top = 0.34f * size_px.y;
+    const float top = text.top * size_px.y;
     list.AddRectFilled({0.0f, top - 0.3f * large}, {size_px.x, top + 1.4f * large + small}, kBack);
     list.AddText(font, large, {0.5f * (size_px.x - wide.x), top}, text.colour, text.large);
     list.AddText(font, small, {0.5f * (size_px.x - wide_2.x), top + 1.15f * large}, kFrame, text.small);
+}
+
+constexpr double kFirstScreen_s = 10.0;
+constexpr const char* kTask = "Cross the courtyard to the gate unseen: keep out of the lamps' light.";
+
+/// Draws what to do, and the keys: of all that look at shadows, and of the game.
+void draw_first_screen(ImDrawList& list, glm::vec2 size_px) {
+    constexpr float kLine = 1.25f, kKeyColumn = 0.16f, kTop = 0.08f;
+    constexpr float kLeastFont_px = 9.0f, kMostFont_px = 20.0f, kLinesInPicture = 30.0f;
+    ImFont* font = ImGui::GetFont();
+    const float font_px = std::clamp(size_px.y / kLinesInPicture, kLeastFont_px, kMostFont_px);
+    const auto width_of = [&](const char* text) { return font->CalcTextSizeA(font_px, size_px.x, 0.0f, text).x; };
+    float wide = width_of(kTask);
+    int rows = 0;
+    for (const KeyRow& row : key_table()) {
+        if (row.place == KeyPlace::scene) continue;
+        wide = std::max(wide, kKeyColumn * wide + width_of(row.meaning));
+        ++rows;
+    }
+    const float left = std::max(0.5f * (size_px.x - wide), font_px), line_px = kLine * font_px;
+    float y = kTop * size_px.y;
+    list.AddRectFilled({left - font_px, y - 0.5f * font_px},
+                       {left + wide + font_px, y + (static_cast<float>(rows) + 2.0f) * line_px}, kBack);
+    list.AddText(font, font_px, {left, y}, kLight, kTask);
+    y += 1.5f * line_px;
+    for (const KeyRow& row : key_table()) {
+        if (row.place == KeyPlace::scene) continue;
+        list.AddText(font, font_px, {left, y}, kLight, row.keys);
+        list.AddText(font, font_px, {left + kKeyColumn * wide, y}, kFrame, row.meaning);
+        y += line_px;
+    }
 }
 
 }  // namespace
@@ -75,11 +108,8 @@ void draw_game_overlay(const GameState& state, glm::vec2 size_px, bool words) {
     }
     if (!words) return;
     draw_words(list, words_of(state.phase), size_px);
-    if (state.phase == Phase::playing && state.time_s() < 6.0)
-        list.AddText(
-            {margin, margin}, kFrame,
-            "Reach the gate unseen: keep out of the lamps' light.\n"
-            "WASD walk, Shift run, click to look, P pause, R restart, Left/Right sun, F1 lights, F2 depth maps");
+    const bool begins = state.phase == Phase::playing && state.time_s() < kFirstScreen_s;
+    if (begins || state.phase == Phase::paused) draw_first_screen(list, size_px);
 }
 
 }  // namespace gnomon::game

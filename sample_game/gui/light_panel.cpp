@@ -9,6 +9,7 @@
 
 #include "sample_game/gui/gui.h"
 #include "sample_game/support/settings/light_settings.h"
+#include "sample_game/support/settings/setting_uses.h"
 #include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::game {
@@ -51,28 +52,55 @@ std::string edited(const LightSetting& setting, const LightSettings& settings) {
     return setting.whole ? std::to_string(std::lround(value)) : std::to_string(value);
 }
 
-/// Edits what was opened: at first the group that an author needs.
-void draw_groups(LightSettings& settings) {
+/// Draws a setting: greyed where it has no effect on this light, with the reason as its tooltip.
+void draw_setting(const SettingUse& use, LightKind kind, LightSettings& settings) {
+    const LightSetting& setting = *find_setting(use.key);
+    const std::string idle(why_idle(use, settings, kind));
+    ImGui::BeginDisabled(!idle.empty());
+    const std::string text = edited(setting, settings);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        const std::string usual = setting.get(LightSettings{});
+        if (idle.empty())
+            ImGui::SetTooltip("%s\nvalues: %s\ndefault: %s", setting.meaning, setting.values, usual.c_str());
+        else
+            ImGui::SetTooltip("%s\nno effect here: needs %s", setting.meaning, idle.c_str());
+    }
+    if (!text.empty()) setting.set(settings, text);  // a value that it does not take changes nothing
+}
+
+/// Draws the button that sets all of a group to the defaults, greyed where all have them.
+void draw_reset(const PurposeGroup& group, LightSettings& settings) {
+    const bool untouched = std::all_of(group.settings.begin(), group.settings.end(), [&](const SettingUse& use) {
+        return is_default(*find_setting(use.key), settings);
+    });
+    ImGui::BeginDisabled(untouched);
+    if (ImGui::SmallButton("reset")) reset_group(group, settings);
+    ImGui::EndDisabled();
+}
+
+/// Edits what was opened: at first the group that most scenes need.
+void draw_groups(LightKind kind, LightSettings& settings) {
     ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_DefaultOpen;
-    for (const SettingGroup& group : setting_groups()) {
+    for (const PurposeGroup& group : purpose_groups()) {
         const bool open = ImGui::TreeNodeEx(group.name, flags);
         flags = ImGuiTreeNodeFlags_None;
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", group.meaning);
         if (!open) continue;
-        for (const LightSetting& setting : group.settings) {
-            const std::string text = edited(setting, settings);
-            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.meaning);
-            if (!text.empty()) setting.set(settings, text);  // a value that it does not take changes nothing
-        }
+        draw_reset(group, settings);
+        for (const SettingUse& use : group.settings) draw_setting(use, kind, settings);
         ImGui::TreePop();
     }
 }
 
 void draw_settings(GameWorld& world) {
+    ImGui::TextUnformatted("Settings of each light's shadow:");
     for (const NamedEntity& light : world.scene.lights) {
         if (!world.registry.has<LightShadow>(light.entity) || !ImGui::CollapsingHeader(light.name.c_str())) continue;
+        const Light* own = world.registry.get<Light>(light.entity);
         ImGui::PushID(light.name.c_str());
-        change_settings(world.registry, light.entity, draw_groups);
+        change_settings(world.registry, light.entity,
+                        [&](LightSettings& settings) { draw_groups(own ? own->kind : LightKind::point, settings); });
         ImGui::PopID();
     }
 }
@@ -112,7 +140,7 @@ void kept_row(const LightReport& light) {
 void draw_why(const FrameReport& report) {
     constexpr std::array kColumns{"view", "state", "reason", "receivers", "casters", "KiB saved", "us saved"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-    if (!ImGui::CollapsingHeader("why")) return;
+    if (!ImGui::CollapsingHeader("why a map is drawn, reused or skipped")) return;
     if (!ImGui::BeginTable("why", static_cast<int>(kColumns.size()), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
@@ -144,8 +172,9 @@ std::string filter_words(const FilterReport& filter) {
 
 void draw_report(const FrameReport& report) {
     constexpr std::array kColumns{"light", "state", "reason", "filter", "texels",
-                                  "KiB",   "draws", "cpu us", "gpu us", "error px"};
+                                  "KiB",   "draws", "CPU us", "GPU us", "edges off, at most px"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::CollapsingHeader("shadow of each light", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
@@ -177,13 +206,13 @@ void draw_report(const FrameReport& report) {
 /// Draws the switch that freezes the frame, and the choice of the light with the errors to show.
 void draw_frozen_choice(FrozenFrame& frozen, PanelState& state) {
     bool on = frozen.on();
-    if (ImGui::Checkbox("freeze and trace the truth (F5)", &on)) state.toggle_frozen = true;
+    if (ImGui::Checkbox("mark errors against ray-traced truth (F5)", &on)) state.toggle_frozen = true;
     if (!frozen.on()) return;
     const auto now = frozen.chosen();
     const char* worst = "each pixel's worst";
     ImGui::SameLine();
     ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
-    if (ImGui::BeginCombo("errors of (F2)", now ? frozen.lights()[*now].name.c_str() : worst)) {
+    if (ImGui::BeginCombo("errors of light (F2)", now ? frozen.lights()[*now].name.c_str() : worst)) {
         if (ImGui::Selectable(worst, !now)) frozen.choose({});
         for (std::size_t i = 0; i < frozen.lights().size(); ++i)
             if (ImGui::Selectable(frozen.lights()[i].name.c_str(), now == i)) frozen.choose(i);
@@ -211,8 +240,8 @@ void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 si
     if (ImGui::Begin("Lights and shadows (F1)", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::Checkbox("shadows", &state.shadows);
         ImGui::SameLine();
-        ImGui::Checkbox("keep fits (F4)", &state.freeze_fits);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("shadows stay fitted to the camera as it is now");
+        ImGui::Checkbox("freeze fits (F4)", &state.freeze_fits);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("maps stay fitted to the camera as it is now");
         ImGui::SameLine();
         bool moving = state.moving;
         if (ImGui::Checkbox("movement (P)", &moving)) state.toggle_motion = true;

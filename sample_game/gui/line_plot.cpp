@@ -5,8 +5,8 @@
 namespace gnomon::game {
 namespace {
 
-constexpr ImU32 kField = IM_COL32(20, 20, 26, 255), kInk = IM_COL32(230, 225, 210, 200);
-constexpr float kDot_px = 2.5f, kAir_px = 2.0f;
+constexpr ImU32 kField = IM_COL32(20, 20, 26, 255);
+constexpr float kDot_px = 2.5f;
 
 }  // namespace
 
@@ -28,7 +28,5 @@ void Plot::level(float value, ImU32 colour) {
 void Plot::dot(float share_x, float value, ImU32 colour) {
     list_.AddCircleFilled(place(share_x, value), kDot_px, colour);
 }
-
-void Plot::label(const char* text) { list_.AddText({at_.x + kAir_px, at_.y}, kInk, text); }
 
 }  // namespace gnomon::game

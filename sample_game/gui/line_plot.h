@@ -33,8 +33,6 @@ public:
     /// Draws a level line.
     void level(float value, ImU32 colour);
     void dot(float share_x, float value, ImU32 colour);
-    /// Writes words in its upper left corner.
-    void label(const char* text);
 
 private:
     ImVec2 place(float share_x, float value) const;

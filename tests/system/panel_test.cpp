@@ -80,7 +80,7 @@ TEST_F(Panel, DragsTheErrorOfAllLightsFromEndToEndAndMapsFollow) {
         if (world.registry.has<LightShadow>(light.entity))
             world.registry.patch<LightShadow>(light.entity, [](LightShadow& s) { s.filter = ShadowFilter::hard; });
     EXPECT_FALSE(hand->click({"max_error_px"})) << "its header is closed";
-    ASSERT_TRUE(hand->click({"accuracy for time"}));
+    ASSERT_TRUE(hand->click({"accuracy against time"}));
     ASSERT_TRUE(hand->drag({"max_error_px"}, 1.5));
     const float most_px = game::contract_px(game::kMostContractStep);
     for (const std::string& light : shadowed) EXPECT_EQ(shadow(light).max_error_px, most_px) << light;
@@ -111,7 +111,7 @@ TEST_F(Panel, DragsTheErrorOfAllLightsFromEndToEndAndMapsFollow) {
 }
 
 TEST_F(Panel, ChoosesOfWhichLightTheErrorIsMeant) {
-    ASSERT_TRUE(hand->click({"accuracy for time"}));
+    ASSERT_TRUE(hand->click({"accuracy against time"}));
     ASSERT_TRUE(hand->click({"light"}));
     ASSERT_TRUE(hand->choose("lantern"));
     EXPECT_EQ(gui->panel.contract.light, "lantern");
@@ -122,7 +122,7 @@ TEST_F(Panel, ChoosesOfWhichLightTheErrorIsMeant) {
 }
 
 TEST_F(Panel, SetsPresetsByTheirNames) {
-    ASSERT_TRUE(hand->click({"accuracy for time"}));
+    ASSERT_TRUE(hand->click({"accuracy against time"}));
     for (const game::Preset& preset : game::presets()) {
         ASSERT_TRUE(hand->click({preset.name})) << preset.name;
         for (const std::string& light : shadowed) EXPECT_EQ(preset_of(light), &preset) << light;
@@ -148,13 +148,14 @@ TEST_F(Panel, BoundsWhatShadowsTakeAndLetsGo) {
 
 TEST_F(Panel, ChangesOneLightsOwnSettings) {
     ASSERT_TRUE(hand->click({"lantern"}));
-    ASSERT_TRUE(hand->drag({"lantern", "shadow", "resolution"}, 1.5));
+    ASSERT_TRUE(hand->click({"lantern", "quality"}));
+    ASSERT_TRUE(hand->drag({"lantern", "quality", "resolution"}, 1.5));
     EXPECT_EQ(shadow("lantern").resolution_px, 4096u);
     EXPECT_EQ(shadow("sun").resolution_px, 0u);
-    ASSERT_TRUE(hand->click({"lantern", "shadow", "filter"}));
+    ASSERT_TRUE(hand->click({"lantern", "basic", "filter"}));
     ASSERT_TRUE(hand->choose("hard"));
     EXPECT_EQ(shadow("lantern").filter, ShadowFilter::hard);
-    ASSERT_TRUE(hand->click({"lantern", "shadow", "enabled"}));
+    ASSERT_TRUE(hand->click({"lantern", "basic", "enabled"}));
     EXPECT_FALSE(shadow("lantern").enabled);
     step();
     for (const LightReport& light : frame->report().lights)
@@ -163,13 +164,29 @@ TEST_F(Panel, ChangesOneLightsOwnSettings) {
         }
 }
 
+TEST_F(Panel, GreysWhatHasNoEffectAndResetsAGroup) {
+    ASSERT_TRUE(hand->click({"lantern"}));
+    ASSERT_TRUE(hand->click({"lantern", "cascades"}));
+    (void)hand->drag({"lantern", "cascades", "cascades"}, 1.5);
+    EXPECT_EQ(shadow("lantern").cascades, 0u) << "a lantern has none";
+    ASSERT_TRUE(hand->click({"lantern", "quality"}));
+    ASSERT_TRUE(hand->drag({"lantern", "quality", "resolution"}, 1.5));
+    EXPECT_EQ(shadow("lantern").resolution_px, 4096u);
+    ASSERT_TRUE(hand->click({"lantern", "quality", "reset"}));
+    EXPECT_EQ(shadow("lantern").resolution_px, 0u);
+    ASSERT_TRUE(hand->click({"sun"}));
+    ASSERT_TRUE(hand->click({"sun", "cascades"}));
+    EXPECT_TRUE(hand->drag({"sun", "cascades", "cascades"}, 1.5));
+    EXPECT_EQ(shadow("sun").cascades, kMaxCascades);
+}
+
 TEST_F(Panel, ShowsTheSettingsInTheGroupsThatAreListedAndTheAuthorsOpen) {
     ASSERT_TRUE(hand->click({"lantern"}));
-    EXPECT_FALSE(hand->click({"lantern", "reuse", "economy"})) << "its group is closed";
+    EXPECT_FALSE(hand->click({"lantern", "cost", "economy"})) << "its group is closed";
     for (const game::NamedEntity& light : world.scene.lights)
         EXPECT_FALSE(world.registry.has<ShadowTuning>(light.entity)) << "nobody needs it";
-    ASSERT_TRUE(hand->click({"lantern", "reuse"}));
-    ASSERT_TRUE(hand->click({"lantern", "reuse", "economy"}));
+    ASSERT_TRUE(hand->click({"lantern", "cost"}));
+    ASSERT_TRUE(hand->click({"lantern", "cost", "economy"}));
     for (const game::NamedEntity& light : world.scene.lights) {
         const ShadowTuning* tuning = world.registry.get<ShadowTuning>(light.entity);
         EXPECT_EQ(tuning && !tuning->reuse.economy, light.name == "lantern") << light.name;
@@ -181,11 +198,11 @@ TEST_F(Panel, SwitchesShadowsFitsMovementAndTheFrozenFrame) {
     EXPECT_FALSE(gui->panel.shadows);
     step();
     EXPECT_EQ(texels(), 0u);
-    ASSERT_TRUE(hand->click({"keep fits (F4)"}));
+    ASSERT_TRUE(hand->click({"freeze fits (F4)"}));
     EXPECT_TRUE(gui->panel.freeze_fits);
     ASSERT_TRUE(hand->click({"movement (P)"}));
     EXPECT_TRUE(gui->panel.toggle_motion);
-    ASSERT_TRUE(hand->click({"freeze and trace the truth (F5)"}));
+    ASSERT_TRUE(hand->click({"mark errors against ray-traced truth (F5)"}));
     EXPECT_TRUE(gui->panel.toggle_frozen);
 }
 
