@@ -49,16 +49,16 @@ def axes(x_scale, y_scale, place, truth):
     bottom = TOP + HIGH
     for tick in x_scale.ticks():
         x, _ = place(tick, y_scale.low)
-        parts += [line(x, TOP, x, bottom), text(x, bottom + 16.0, "%.4g" % tick, 'text-anchor="middle"')]
+        parts += [line(x, TOP, x, bottom), text(x, bottom + 16.0, "%.3g" % tick, 'text-anchor="middle"')]
     for tick in y_scale.ticks():
         _, y = place(x_scale.low, tick)
         parts += [line(LEFT, y, LEFT + WIDE, y),
-                  text(LEFT - LABEL_GAP, y + 4.0, "%.4g" % (100.0 * tick), 'text-anchor="end"')]
+                  text(LEFT - LABEL_GAP, y + 4.0, ("%.6f" % (100.0 * tick)).rstrip("0").rstrip(".") or "0", 'text-anchor="end"')]
     parts.append('<rect x="%.2f" y="%.2f" width="%.2f" height="%.2f" fill="none" stroke="#888"/>' %
                  (LEFT, TOP, WIDE, HIGH))
-    parts.append(text(LEFT + 0.5 * WIDE, bottom + 38.0, "time of depth and lighting pass over the defaults' time, "
-                      "every view drawn", 'text-anchor="middle"'))
-    parts.append(text(0.0, 0.0, "wrong pixels, %" if truth == "point" else "mean error, %",
+    parts.append(text(LEFT + 0.5 * WIDE, bottom + 38.0, "time of drawing and reading its maps, × the defaults' time "
+                      "(logarithmic)", 'text-anchor="middle"'))
+    parts.append(text(0.0, 0.0, "wrong pixels, % (logarithmic)" if truth == "point" else "mean error, % (logarithmic)",
                       'text-anchor="middle" transform="translate(14 %.2f) rotate(-90)"' % (TOP + 0.5 * HIGH)))
     return parts
 

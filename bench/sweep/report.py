@@ -23,8 +23,14 @@ MIME = {".jpg": "image/jpeg", ".png": "image/png"}
 LIGHT_KEYS = ("light", "kind", "state", "reason")
 
 
+def plain(value, digits=2):
+    """A number with so many digits that count, and without an exponent: 0.0034, 4.8, 120."""
+    rounded = float("%.*g" % (digits, value))
+    return "%d" % rounded if abs(rounded) >= 10.0 ** (digits - 1) else ("%.10f" % rounded).rstrip("0").rstrip(".")
+
+
 def percent(share):
-    return "%.3g %%" % (100.0 * share)
+    return plain(100.0 * share) + " %"
 
 
 def named(choice):
@@ -32,6 +38,27 @@ def named(choice):
 
 
 # --- sentences --------------------------------------------------------------------------------------------------------
+
+def lead_words(scenes):
+    """What the page shows, in one sentence for a person who has never seen a shadow map's settings."""
+    for scene in scenes:
+        for light in scene.lights:
+            found, beside = scene.halving(light, "point").defaults, scene.beside_tutorial(light)
+            if found and beside:
+                time = beside.drawn if beside.kept is None else beside.kept
+                return ("Of each million pixels that “%s” may light in %s, a tutorial's shadow map gets %s wrong and "
+                        "Gnomon's defaults %s, for %s times the tutorial's time." % (
+                            light, scene.data["scene"], plain(1.0e6 * beside.tutorial.error), plain(1.0e6 * found.error),
+                            plain(time)))
+    return "Each dot is one way to draw shadows: how many pixels are wrong, and how long it takes."
+
+
+def pixels_words(scene, light, choice):
+    """The number of wrong pixels, where it is small enough to be counted."""
+    scored = scene.figures(choice.index, light)["scored_px"] or 0.0
+    count = choice.error * scored
+    return ": %d of %s pixels" % (round(count), "{:,.0f}".format(scored).replace(",", " ")) if 0.6 < count < 1000.0 else ""
+
 
 def missed_words(missed):
     text = " The defaults are above their bounds: %s." % missed.above
@@ -62,7 +89,8 @@ def sentence(scene, light, truth):
             light, error, found.factor, named(found.steps[0]), named(found.steps[-1]))
     if found.defaults is None:
         return text
-    text += " The defaults have %s." % percent(found.defaults.error)
+    counted = pixels_words(scene, light, found.defaults) if truth == "point" else ""
+    text += " The defaults have %s%s." % (percent(found.defaults.error), counted)
     if found.half_of_defaults is None:
         text += " No row has half of that."
     else:
@@ -223,6 +251,21 @@ def halving_html(scene):
     return text + '<div class="plots">\n%s</div>\n' % tables + "".join("<p>%s</p>\n" % escape(b) for b in bargains)
 
 
+def plot_words(scene, light, truth):
+    """What to see in a plot."""
+    source = "as a point" if truth == "point" else "with its size"
+    choices = scene.choices(light, truth, "drawn")
+    defaults = next((c for c in choices if c.name == DEFAULTS), None)
+    text = "“%s” %s: %d ways to draw its shadows. " % (light, source, len(choices))
+    if defaults is None:
+        return text + "The line joins the best ones."
+    less = sum(c.error < defaults.error for c in choices)
+    return text + "%s less error than the defaults, and %s less time; %s." % (
+        "One has" if less == 1 else "%d have" % less, sum(c.cost < 1.0 for c in choices),
+        "nothing has both" if not any(c.error < defaults.error and c.cost < 1.0 for c in choices)
+        else "%d have both" % sum(c.error < defaults.error and c.cost < 1.0 for c in choices))
+
+
 def plots_html(scene, number):
     text = '<h3>%s</h3>\n<div class="plots">\n' % escape(scene.data["scene"])
     for light in scene.lights:
@@ -230,7 +273,7 @@ def plots_html(scene, number):
             plot = front_plot(scene, light, truth)
             if plot:
                 text += '<figure data-scene="%d" data-light="%s">' % (number, escape(light))
-                text += "<figcaption>%s, truth about a %s</figcaption>\n%s</figure>\n" % (escape(light), truth, plot)
+                text += "<figcaption>%s</figcaption>\n%s</figure>\n" % (escape(plot_words(scene, light, truth)), plot)
     return text + "</div>\n"
 
 
@@ -285,7 +328,8 @@ def page(scenes, folder, columns, most_bytes=MOST_PICTURE_BYTES):
     notes += "In a row's picture only lights of the row's kind cast shadows."
     if left_out > 0:
         notes += " Pictures of %d rows were left out to keep the page small." % left_out
-    values = {"HALVING": "".join(map(halving_html, scenes)),
+    values = {"LEAD": escape(lead_words(scenes)),
+              "HALVING": "".join(map(halving_html, scenes)),
               "PLOTS": "".join(plots_html(scene, i) for i, scene in enumerate(scenes)),
               "NOTES": escape(notes),
               "COLUMNS": "".join("<dt>%s</dt><dd>%s</dd>\n" % (escape(name), escape(meaning))

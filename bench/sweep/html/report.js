@@ -57,6 +57,7 @@
         const panel = document.getElementById("pictures");
         panel.replaceChildren();
         panel.hidden = false;
+        panel.scrollIntoView({ block: "nearest" });
         element("h3", row.light ? row.row + ", " + row.light : row.row, panel);
         const text = row.settings === "" ? "nothing set" : row.settings;
         element("p", row.error ? "Failed: " + row.error : text, panel);

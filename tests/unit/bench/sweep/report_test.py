@@ -167,6 +167,29 @@ class Files(unittest.TestCase):
                      "| tutorial, 1024 | sun | 8 | - |", "- sun, point, maps drawn: `tutorial, 1024` 8 % × 0.9; "):
             self.assertIn(part, text)
 
+    def test_the_page_opens_with_one_sentence_and_its_plots(self):
+        text = page(some_sweep())
+        body = re.sub(r"<(script|style).*?</\1>", "", text, flags=re.S).split("<body>")[1]
+        lead, plot, fold = (body.index(part) for part in ('class="lead"', "<svg", "<details"))
+        self.assertLess(lead, plot)
+        self.assertLess(plot, fold)
+        self.assertIn("Of each million pixels that “sun” may light in a scene, a tutorial's shadow map gets 80000 wrong and "
+                      "Gnomon&#x27;s defaults 20000, for 1.1 times the tutorial".replace("tutorial's", "tutorial&#x27;s"), body)
+        self.assertLess(len(re.sub("<[^>]*>", "", body[:plot]).split()), 120, "words before the first plot")
+        self.assertIn("One has less error than the defaults, and 1 less time; nothing has both.", body)
+        self.assertEqual(body.count("<details"), body.count("</details>"))
+        self.assertNotIn("<details open", body)
+        self.assertIn('class="lead"', page(made_up(("defaults", 0.02, None))))
+
+    def test_numbers_have_the_digits_that_count_and_no_exponent(self):
+        for value, words in ((0.00341, "0.0034"), (4.81, "4.8"), (123.0, "120"), (99.9, "100"), (1.0e-7, "0.0000001"),
+                             (0.0, "0"), (1.0e6, "1000000"), (9.96, "10")):
+            self.assertEqual(report.plain(value), words)
+
+    def test_a_few_wrong_pixels_are_counted(self):
+        self.assertIn("The defaults have 0.0003 %: 3 of 1 000 000 pixels.", said(made_up(("defaults", 3.0e-6, 1.0))))
+        self.assertIn("The defaults have 2 %.", said(made_up(("defaults", 0.02, 1.0))))
+
     def test_the_page_needs_nothing_from_elsewhere(self):
         text = page(some_sweep())
         self.assertFalse(refers_elsewhere(text))
