@@ -27,6 +27,7 @@
 #include "bench/scaling/redraws.h"
 #include "bench/sweep/sweep_command.h"
 #include "bench/text/replace_doc_section.h"
+#include "bench/text/wrap_lines.h"
 #include "sample_game/support/files/image_files.h"
 #include "sample_game/support/settings/parse_number.h"
 
@@ -42,8 +43,11 @@ int fail(const Error& error) {
     return kBadInput;
 }
 
+/// Prints a text so that it fits into a terminal.
+void print(const std::string& text) { std::fputs(wrapped(text).c_str(), stdout); }
+
 std::optional<Error> put_out(const Arguments& arguments, const std::string& table, const std::string& json) {
-    std::fputs(table.c_str(), stdout);
+    print(table);
     if (arguments.json.empty()) return std::nullopt;
     return game::write_file(arguments.json, std::as_bytes(std::span(json)));
 }
@@ -51,7 +55,7 @@ std::optional<Error> put_out(const Arguments& arguments, const std::string& tabl
 /// Prints the table of a measurement. Returns the exit status.
 int put_table(const Result<std::string>& table) {
     if (!table) return fail(table.error());
-    std::fputs(table.value().c_str(), stdout);
+    print(table.value());
     return 0;
 }
 
@@ -107,7 +111,7 @@ int run_audits(const Arguments& arguments) {
     AuditCommand command;
     command.stage = arguments.stage;
     command.scenes.assign(arguments.scenes.begin(), arguments.scenes.end());
-    command.on_audit = [](const Audit& audit) { std::fputs(audit_table(audit).c_str(), stdout); };
+    command.on_audit = [](const Audit& audit) { print(audit_table(audit)); };
     const auto audits = run_audit(command);
     if (!audits) return fail(audits.error());
     if (auto error = put_out(arguments, audit_summary(audits.value()), audit_json(audits.value()))) return fail(*error);
@@ -180,7 +184,7 @@ int run_filters(const Arguments& arguments) {
     const auto found = write_filter_pictures(*stage.value(), arguments.filters, options);
     if (!found) return fail(found.error());
     const FilterPictures& pictures = found.value();
-    std::fputs((pictures.point_figures + "\n" + pictures.disk_figures).c_str(), stdout);
+    print(pictures.point_figures + "\n" + pictures.disk_figures);
     if (arguments.markdown.empty()) return 0;
     const std::filesystem::path page = arguments.markdown;
     const std::string folder = std::filesystem::proximate(arguments.filters, page.parent_path()).generic_string();
@@ -228,7 +232,7 @@ int run_budget_speeds(const Arguments& arguments) {
     const auto speeds = measure_budget_speeds(arguments.speeds);
     if (!speeds) return fail(speeds.error());
     const std::string table = budget_speeds_markdown(speeds.value());
-    std::fputs(table.c_str(), stdout);
+    print(table);
     if (auto error = put_marked(arguments, "speeds", table)) return fail(*error);
     return 0;
 }

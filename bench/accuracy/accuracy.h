@@ -63,6 +63,8 @@ struct AccuracyOptions {
 /// snapshot that was drawn. Errors: "bench.visibility" if a light's visibility cannot be read, "bench.camera".
 Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options);
 
+/// Returns the meaning of the table's columns, for --help.
+std::string accuracy_legend();
 /// Returns a table for people.
 std::string accuracy_table(const Accuracy& accuracy);
 /// Returns all results for scripts: bench/README.md lists the keys.

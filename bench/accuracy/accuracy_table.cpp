@@ -10,7 +10,7 @@ constexpr double kPercent = 100.0;
 constexpr double kUsPerMs = 1000.0;
 constexpr double kBytesPerMb = 1.0e6;
 
-void append_light(const LightAccuracy& light, std::string& text) {
+void append_errors(const LightAccuracy& light, std::string& text) {
     if (is_left_out(light.report)) {
         text += formatted("%-18.18s left out, its shadow could not be seen: %s\n", light.report.name.c_str(),
                           reason_code(light.report.reason));
@@ -19,18 +19,23 @@ void append_light(const LightAccuracy& light, std::string& text) {
     const oracle::Metrics& m = light.metrics;
     const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
     const oracle::FarErrors& far = light.far;
-    text += formatted(
-        "%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6zu %6zu %6zu %6zu %6.2f %6.2f %6.2f %5zu %5zu %6zu %6zu %7.2f",
-        light.report.name.c_str(), m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
-        percent(m.acne), percent(m.leak), far.false_shadow, far.false_light, far.crease_shadow, far.crease_light,
-        m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, m.ambiguous, m.uncovered, m.coverage_mismatch,
-        light.report.predicted_error_px);
-    text += formatted(" %10llu %8.2f", static_cast<unsigned long long>(light.report.counts.texels),
+    text += formatted("%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6zu %6zu %6zu %6zu %6zu %6zu\n",
+                      light.report.name.c_str(), m.scored, percent(m.wrong), percent(m.false_shadow),
+                      percent(m.false_light), percent(m.acne), percent(m.leak), far.false_shadow, far.false_light,
+                      far.crease_shadow, far.crease_light, m.ambiguous, m.uncovered);
+}
+
+void append_edges(const LightAccuracy& light, std::string& text) {
+    if (is_left_out(light.report)) return;
+    const oracle::Metrics& m = light.metrics;
+    text += formatted("%-18.18s %6.2f %6.2f %6.2f %5zu %7.2f %6zu %10llu %7.1f", light.report.name.c_str(),
+                      m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, light.report.predicted_error_px,
+                      m.coverage_mismatch, static_cast<unsigned long long>(light.report.counts.texels),
                       static_cast<double>(light.report.counts.bytes) / kBytesPerMb);
     if (light.gpu_us.count == 0)
-        text += formatted(" %24s", "not measured");
+        text += formatted(" %21s", "not measured");
     else
-        text += formatted(" %8.2f (%6.2f-%6.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
+        text += formatted(" %7.2f (%5.2f-%5.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
                           light.gpu_us.max / kUsPerMs);
     text += formatted("  %s%s%s\n", to_text(light.report.state), light.report.reason == Reason::none ? "" : ": ",
                       light.report.reason == Reason::none ? "" : reason_code(light.report.reason));
@@ -50,38 +55,41 @@ void append_soft(const Accuracy& accuracy, std::string& text) {
                       kPercent * m.umbra_leak, m.lit, kPercent * m.lit_loss, m.penumbra, kPercent * m.penumbra_error,
                       m.widths.places, m.widths.median_ratio, m.widths.p10_ratio, m.widths.p90_ratio);
     }
-    text +=
-        "\nsource: radius in metres, or the tangent of a sun's. error: mean difference from the fraction of the source "
-        "that\n"
-        "256 rays say is seen. leak: mean light where none of it is; loss: mean light missing where all is. widths: "
-        "places\n"
-        "where a penumbra is measured; ratio: from a tenth to nine tenths of the light, as drawn, of what is true "
-        "there.\n";
 }
 
 }  // namespace
+
+std::string accuracy_legend() {
+    return "Columns of the table:\n"
+           "  pixels    surfaces that the light reaches and that face it; every % is of them\n"
+           "  wrong     shown on the other side of half lit than the truth: fshadow false shadow, flight false light\n"
+           "  acne      false shadow more than 2 px from any true edge; leak: false light there\n"
+           "  fs, fl    pixels of false shadow and false light. far: farther than half a texel and the filter's "
+           "half-width\n"
+           "            from true edges and from creases of the surface; cr: near creases alone\n"
+           "  ambig     left out: the truth depends on the last digits, or the picture shows another surface than the "
+           "ray\n"
+           "  uncov     no surface measured, counted as wrong; cover: the same over the whole picture\n"
+           "  mean, p95, max  distance of shadow edges from the true ones, px; lost: places with no edge within 8 px\n"
+           "  at most   bound on that distance that the fit states, px\n"
+           "  ms        depth and lighting pass, every map redrawn\n"
+           "Of lights with a size, against 256 rays to it: source is the radius in metres, or the tangent of a sun's;\n"
+           "error the mean difference; leak the mean light where none of it is seen; loss the mean light missing where "
+           "all\n"
+           "is; widths the places where a penumbra is measured, ratio drawn by true width.\n";
+}
 
 std::string accuracy_table(const Accuracy& accuracy) {
     std::string text;
     text += formatted("scene   %s\ndevice  %s\npicture %u x %u\n\n", accuracy.scene.c_str(), accuracy.device.c_str(),
                       accuracy.size_px.x, accuracy.size_px.y);
-    text += formatted(
-        "%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %6s %6s %6s %5s %5s %6s %6s %7s %10s %8s %24s  %s\n", "light",
-        "pixels", "wrong%", "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr", "edge",
-        "p95", "max", "lost", "ambig", "uncov", "cover", "predict", "texels", "MB", "ms (min-max)", "state");
-    for (const LightAccuracy& light : accuracy.lights) append_light(light, text);
+    text += formatted("%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %6s %6s\n", "errors of light", "pixels", "wrong%",
+                      "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr", "ambig", "uncov");
+    for (const LightAccuracy& light : accuracy.lights) append_errors(light, text);
     for (const std::string& name : accuracy.unshadowed) text += formatted("%-18.18s has no shadow\n", name.c_str());
-    text +=
-        "\npixels: surfaces the light reaches and faces; every % is of them. acne, leak: wrong more than 2 px from "
-        "any\n"
-        "true edge. fs, fl far: pixels of false shadow and light that are also farther than half a texel and the "
-        "filter's\n"
-        "half-width from true edges and from creases of the surface; cr: near creases alone. edge, p95, max, predict: "
-        "distance of shadow edges from the true ones in pixels; lost: places with\n"
-        "no edge within 8 px. ambig: left out, the truth hangs on the last digits, or the picture shows another "
-        "surface than\n"
-        "the pixel's ray meets. uncov: no surface measured, counted as wrong. cover: the same over the whole picture. "
-        "ms: depth and lighting pass, every view drawn anew.\n";
+    text += formatted("\n%-18s %6s %6s %6s %5s %7s %6s %10s %7s %21s  %s\n", "edges and cost", "mean", "p95", "max",
+                      "lost", "at most", "cover", "texels", "MB", "ms (least-most)", "state");
+    for (const LightAccuracy& light : accuracy.lights) append_edges(light, text);
     append_soft(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
@@ -105,8 +113,9 @@ std::string accuracy_table(const Accuracy& accuracy) {
                                 light.report.name.c_str());
     for (const LightAccuracy& light : accuracy.lights)
         if (light.redrawn_differs > 0)
-            text += formatted("%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),
+            text += formatted("%s: %zu pixels changed when every map was redrawn.\n", light.report.name.c_str(),
                               light.redrawn_differs);
+    text += "\nWhat the columns mean: bench accuracy --help\n";
     if (accuracy.gl_complaints > 0) text += formatted("OpenGL complained %u times.\n", accuracy.gl_complaints);
     return text;
 }

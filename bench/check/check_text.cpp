@@ -86,7 +86,7 @@ std::string rows_text(const RowChecks& rows) {
     std::string text = cut(formatted("rows: %u x %u pixels against rays, %.1f s, of that %.1f s for the truth",
                                      rows.size_px.x, rows.size_px.y, rows.took_s, rows.trace_s));
     text += cut(formatted("  %-39s %6s %5s %5s %5s %5s  %-13s %-13s", "kind, filter, way of a cube", "pixels", "wrong",
-                          "acne", "leak", "far", "drawn anew", "maps kept"));
+                          "acne", "leak", "far", "maps redrawn", "maps reused"));
     for (const CheckRow& row : rows.rows) text += row_text(row);
     text +=
         "  far: wrong where neither an edge nor the map's texels explain it; "

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "bench/accuracy/accuracy.h"
 #include "bench/common/arguments.h"
 #include "bench/common/parse_arguments.h"
 #include "bench/embed/host_engine.h"
+#include "bench/frame/frame_times.h"
 
 namespace gnomon::bench {
 namespace {
@@ -60,6 +62,7 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     add_markdown(command, arguments,
                  "page whose text between <!-- NAME --> and <!-- end of NAME --> is replaced; --filters: rows, "
                  "--sweep: cost (./gnomon)");
+    command.footer([] { return accuracy_legend(); });
 }
 
 void add_audit(CLI::App& command, Arguments& arguments) { add_scene(command, arguments); }
@@ -71,6 +74,7 @@ void add_frame(CLI::App& command, Arguments& arguments) {
         .add_option("--against", arguments.against,
                     "KEY=VALUE on top of --set: frames of both ways and their ratios instead")
         ->allow_extra_args(false);
+    command.footer([] { return frame_legend(); });
 }
 
 void add_stability(CLI::App& command, Arguments& arguments) {
@@ -85,6 +89,7 @@ void add_stability(CLI::App& command, Arguments& arguments) {
     command.add_option("--path", options.paths, "pan, walk, roll or zoom (default: all)")->allow_extra_args(false);
     command.add_option("--fit", options.fits, "one of --set fit's (default: all)")->allow_extra_args(false);
     command.add_option("--plot", arguments.plot, "write flips against frames to this SVG file");
+    command.footer([] { return stability_legend(); });
 }
 
 void add_drawings(CLI::App& command, Arguments& arguments) {

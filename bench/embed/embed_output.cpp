@@ -58,7 +58,7 @@ std::string embed_table(const EmbedCosts& costs) {
             text += formatted("%-16s %s\n", kWays[w].key, figures(row.ways[w], costs.is_software).c_str());
         }
     }
-    text += "\n" + embed_legend();
+    text += "\nWhat the rows and columns mean: bench embed --help\n";
     if (costs.whole_text_compile_s > 0.0)
         text += formatted("the shader of lookup_all compiled in %.1f s\n", costs.whole_text_compile_s);
     if (costs.starved > 0) text += formatted("%u calls during which the device may have been idle\n", costs.starved);

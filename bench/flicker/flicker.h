@@ -59,6 +59,8 @@ std::vector<std::string> known_fits();
 /// "bench.camera"; "bench.map"; "bench.row" for a light with a lookup that make_exact_light() does not know.
 Result<Stability> measure_stability(Stage& stage, const StabilityOptions& options);
 
+/// Returns the meaning of the table's columns, for --help.
+std::string stability_legend();
 std::string stability_table(const Stability& stability);
 std::string stability_json(const Stability& stability);
 /// Flips per point against frames, one panel per path and light.

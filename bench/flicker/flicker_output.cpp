@@ -6,28 +6,27 @@
 #include <set>
 
 #include "bench/flicker/flicker.h"
+#include "bench/text/printf_string.h"
 #include "bench/text/svg.h"
 
 namespace gnomon::bench {
 namespace {
 
-constexpr std::size_t kLineLength = 320;
 constexpr const char* kColours[] = {"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad", "#b8860b", "#555555"};
 
-std::string line_of(const PathFlicker& r) {
-    char text[kLineLength];
-    std::snprintf(text, sizeof text,
-                  "%-5s %-10.10s %-14.14s %-11.11s %7u %10.5f %8llu %8llu %6llu %10llu %6llu %6.3f %8.3f %6llu %6llu "
-                  "%6llu %6llu %6llu %s\n",
-                  r.path.c_str(), r.fit.c_str(), r.light.c_str(), r.kind.c_str(), r.points,
-                  r.flips_per_point_per_100_frames(), static_cast<unsigned long long>(r.flips),
-                  static_cast<unsigned long long>(r.flips_between_steps), static_cast<unsigned long long>(r.edge_flips),
-                  static_cast<unsigned long long>(r.crossings), static_cast<unsigned long long>(r.crossing_flips),
-                  r.greatest_crossing_jump, r.greatest_step_jump, static_cast<unsigned long long>(r.views),
-                  static_cast<unsigned long long>(r.views_moved), static_cast<unsigned long long>(r.frames_stepped),
-                  static_cast<unsigned long long>(r.views_drawn), static_cast<unsigned long long>(r.uncovered),
-                  r.reason.c_str());
-    return text;
+unsigned long long wide(std::uint64_t count) { return count; }
+
+std::string flips_of(const PathFlicker& r) {
+    return formatted("%-5s %-10.10s %-14.14s %-11.11s %7u %10.5f %8llu %8llu %6llu %s\n", r.path.c_str(), r.fit.c_str(),
+                     r.light.c_str(), r.kind.c_str(), r.points, r.flips_per_point_per_100_frames(), wide(r.flips),
+                     wide(r.flips_between_steps), wide(r.edge_flips), r.reason.c_str());
+}
+
+std::string views_of(const PathFlicker& r) {
+    return formatted("%-5s %-10.10s %-14.14s %9llu %6llu %6.3f %8.3f %6llu %6llu %6llu %6llu %6llu\n", r.path.c_str(),
+                     r.fit.c_str(), r.light.c_str(), wide(r.crossings), wide(r.crossing_flips),
+                     r.greatest_crossing_jump, r.greatest_step_jump, wide(r.views), wide(r.views_moved),
+                     wide(r.frames_stepped), wide(r.views_drawn), wide(r.uncovered));
 }
 
 /// Returns the distinct names in order of first appearance.
@@ -113,24 +112,25 @@ nlohmann::ordered_json row_json(const PathFlicker& r) {
 std::string stability_table(const Stability& s) {
     std::string text = "scene   " + s.scene + "\ndevice  " + s.device + "\npicture " + std::to_string(s.size_px.x) +
                        " x " + std::to_string(s.size_px.y) + ", " + std::to_string(s.frames) + " frames per path\n\n";
-    char head[kLineLength];
-    std::snprintf(head, sizeof head,
-                  "%-5s %-10s %-14s %-11s %7s %10s %8s %8s %6s %10s %6s %6s %8s %6s %6s %6s %6s %6s\n", "path", "fit",
-                  "light", "kind", "points", "flips/100", "flips", "between", "edge", "crossings", "flips", "jump",
-                  "at steps", "views", "moved", "steps", "drawn", "uncov.");
-    text += head;
-    for (const PathFlicker& row : s.rows) text += line_of(row);
-    return text +
-           "\nflips/100: changes of visibility per point and 100 frames while one view decides; between: those in "
-           "frames in\n"
-           "which it did not step; edge: those within 2^-10 texel of a texel's border or a depth tie, left out; "
-           "crossings:\n"
-           "another view decides than before, or several together, with their flips and the greatest jump of "
-           "visibility;\n"
-           "at steps: the greatest where one of those views stepped; views: summed over frames; moved: their matrices "
-           "changed;\n"
-           "steps: frames in which the size, direction or depth range of some view changed; drawn: views drawn anew;\n"
-           "uncov.: points in view that no view holds, summed over frames\n";
+    text += formatted("%-5s %-10s %-14s %-11s %7s %10s %8s %8s %6s\n", "path", "fit", "light", "kind", "points",
+                      "flips/100", "flips", "between", "edge");
+    for (const PathFlicker& row : s.rows) text += flips_of(row);
+    text += formatted("\n%-5s %-10s %-14s %9s %6s %6s %8s %6s %6s %6s %6s %6s\n", "path", "fit", "light", "crossings",
+                      "flips", "jump", "at steps", "views", "moved", "steps", "drawn", "uncov.");
+    for (const PathFlicker& row : s.rows) text += views_of(row);
+    return text + "\nWhat the columns mean: bench stability --help\n";
+}
+
+std::string stability_legend() {
+    return "Columns of the tables:\n"
+           "  flips/100  changes of visibility per point and 100 frames while one view decides\n"
+           "  between    flips in frames in which that view did not step\n"
+           "  edge       flips within 2^-10 texel of a texel's border or a depth tie, left out\n"
+           "  crossings  another view decides than before, or several together; with their flips and greatest jump\n"
+           "  at steps   the greatest jump where one of those views stepped\n"
+           "  views      summed over frames; moved: their matrices changed; drawn: redrawn\n"
+           "  steps      frames in which the size, direction or depth range of some view changed\n"
+           "  uncov.     points in view that no view contains, summed over frames\n";
 }
 
 std::string stability_json(const Stability& s) {

@@ -125,19 +125,16 @@ std::string frames_against_table(const FramesAgainst& times) {
         const TimedFrames& own = held.own.frames;
         std::snprintf(
             line, sizeof line,
-            "%-28s %8.2f ms (processor %8.2f) against %8.2f (%8.2f): x %.2f (%.2f-%.2f), processor x %.2f "
-            "(%.2f-%.2f); views drawn %u against %u, %.1f MB against %.1f\n",
-            held.words, own.us.median / kUsPerMs, own.cpu_us.median / kUsPerMs, held.other.frames.us.median / kUsPerMs,
-            held.other.frames.cpu_us.median / kUsPerMs, own.ratio.median, own.ratio.min, own.ratio.max,
-            own.cpu_ratio.median, own.cpu_ratio.min, own.cpu_ratio.max, held.own.views_drawn, held.other.views_drawn,
-            static_cast<double>(held.own.bytes) / kBytesPerMb, static_cast<double>(held.other.bytes) / kBytesPerMb);
+            "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f); views drawn %u against %u, %.1f MB against %.1f\n"
+            "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f)\n",
+            held.words, own.us.median / kUsPerMs, held.other.frames.us.median / kUsPerMs, own.ratio.median,
+            own.ratio.min, own.ratio.max, held.own.views_drawn, held.other.views_drawn,
+            static_cast<double>(held.own.bytes) / kBytesPerMb, static_cast<double>(held.other.bytes) / kBytesPerMb,
+            "  processor", own.cpu_us.median / kUsPerMs, held.other.frames.cpu_us.median / kUsPerMs,
+            own.cpu_ratio.median, own.cpu_ratio.min, own.cpu_ratio.max);
         text += line;
     }
-    return text +
-           "\nmedians of whole frames until the device has finished; x: median (min-max) of one ratio per round, of "
-           "time "
-           "and of the\nprocess's time on all cores. Every pixel is looked up in every frame, still ones too; maps are "
-           "kept where nothing in them\nchanges, but for those drawn anew.\n";
+    return text + "\nWhat the columns mean: bench frame --help\n";
 }
 
 std::string frames_against_json(const FramesAgainst& times) {

@@ -93,13 +93,20 @@ std::string frame_times_table(const FrameTimes& times) {
     std::string text = "scene   " + times.scene + "\ndevice  " + times.device + "\npicture " +
                        std::to_string(times.size_px.x) + " x " + std::to_string(times.size_px.y) + "\n\n";
     for (const Named& kind : kKinds) text += line(kind.words, times.*kind.frames);
-    return text +
-           "\nmedian (min-max) of whole frames until the device has finished, and the process's time on all cores; x: "
-           "ratios per round\nto the same without shadows, of either. still: maps, and what pixels saw of the lights, "
-           "are kept. looked up: maps alone.\ncamera walks: by 1.4 m/s. everything moves: lights, casters and camera "
-           "go on by 1/60 s per frame; " +
-           std::to_string(times.moving_views_drawn) + " of " + std::to_string(times.moving_views) +
-           " views were drawn in the last of them\n";
+    return text + "\nin the last frame with everything moving " + std::to_string(times.moving_views_drawn) + " of " +
+           std::to_string(times.moving_views) + " views were drawn\nWhat the columns mean: bench frame --help\n";
+}
+
+std::string frame_legend() {
+    return "Rows and columns of the tables:\n"
+           "  ms               median (least-most) of whole frames until the device has finished\n"
+           "  processor        the process's time on all cores\n"
+           "  x                ratios per round to the same without shadows, of time and of processor time; with\n"
+           "                   --against: to the other way\n"
+           "  still            maps, and visibility per pixel, are reused\n"
+           "  still, looked up maps are reused, every pixel is looked up; so it is with --against, in every row\n"
+           "  camera walks     by 1.4 m/s\n"
+           "  everything moves lights, casters and camera go on by 1/60 s per frame\n";
 }
 
 std::string frame_times_json(const FrameTimes& times) {

@@ -25,6 +25,8 @@ struct FrameTimes {
 /// shadows and without.
 FrameTimes measure_frame_times(Stage& stage, std::uint32_t rounds, std::uint32_t frames);
 
+/// Returns the meaning of the tables, for --help.
+std::string frame_legend();
 std::string frame_times_table(const FrameTimes& times);
 std::string frame_times_json(const FrameTimes& times);
 
