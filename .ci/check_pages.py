@@ -19,8 +19,8 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import pages  # noqa: E402  (it lies beside this file)
 
-FIGURE = re.compile(r"<!-- figure: (?P<name>[\w.-]+) -->(?P<text>.*?)<!-- /figure -->", re.DOTALL)
-FIGURE_MARK = re.compile(r"<!-- (?:figure: [^>]*|/figure) -->")
+FIGURE = re.compile(r"<!-- figure: (?P<name>[a-z][\w.-]*) -->(?P<text>.*?)<!-- /figure -->", re.DOTALL)
+FIGURE_MARK = re.compile(r"<!-- (?:figure: [a-z][^>]*|/figure) -->")
 FLAG = re.compile(r"--[a-z][\w-]*")
 # Pages that no page has to reach: they stand in the root, where their names are what finds them.
 START = "README.md"
@@ -66,12 +66,34 @@ def far_pages(root, texts, most=MOST_CLICKS):
             for path, page in by_path.items() if path not in reached and "docs" in page.relative_to(root).parts[:1]]
 
 
+MENTION = re.compile(r"(?<![\w/])docs/[\w./-]+\.(?:md|txt|png|svg)")
+SOURCES = ("include", "engine", "systems", "window", "shaders", "sample_game", "examples", "bench", "cmake", "tests", ".ci")
+SOURCE_ENDS = {".h", ".cpp", ".inc", ".glsl", ".vert", ".frag", ".geom", ".comp", ".cmake", ".txt", ".py", ".sh", ".css", ".html"}
+MADE_UP = {".ci/check_pages.py", ".ci/generate_pages.py"}  # their self-tests have pages of their own
+
+
+def wrong_mentions(root):
+    """Pages that comments of the code name, and that are not there."""
+    found = []
+    for file in sorted(p for folder in SOURCES for p in (root / folder).rglob("*") if p.suffix in SOURCE_ENDS and p.is_file()):
+        name = file.relative_to(root).as_posix()
+        if name in MADE_UP:
+            continue
+        text = file.read_text(encoding="utf-8", errors="replace")
+        for match in MENTION.finditer(text):
+            if not (root / match[0]).exists():
+                others = [p.relative_to(root).as_posix() for p in (root / "docs").rglob(match[0].rsplit("/", 1)[-1])]
+                found.append("%s:%d: %s does not exist%s" % (name, pages.line_of(text, match.start()), match[0],
+                                                            "; %s does" % others[0] if len(others) == 1 else ""))
+    return found
+
+
 # --- figures ----------------------------------------------------------------------------------------------------------
 
 def wrong_figures(root, texts):
     found, places = [], {}
     for page, text in texts.items():
-        text = pages.FENCE.sub(pages.blank, text)
+        text = pages.without_code(text)
         for match in FIGURE.finditer(text):
             name = "%s:%d" % (page.relative_to(root), pages.line_of(text, match.start()))
             places.setdefault(match["name"], []).append((name, " ".join(match["text"].split())))
@@ -184,7 +206,7 @@ def wrong_commands(root, texts, programs):
 def faults(root, folder):
     texts = {page: page.read_text(encoding="utf-8") for page in pages.pages(root)}
     commands, count = wrong_commands(root, texts, Programs(root, folder))
-    found = wrong_links(root, texts) + far_pages(root, texts) + wrong_figures(root, texts) + commands
+    found = wrong_links(root, texts) + wrong_mentions(root) + far_pages(root, texts) + wrong_figures(root, texts) + commands
     links = sum(1 for text in texts.values() for _ in pages.links(text))
     figures = sum(len(FIGURE.findall(text)) for text in texts.values())
     return found, "%d pages, %d links and pictures, %d commands, %d marked figures" % (len(texts), links, count, figures)
@@ -233,6 +255,12 @@ def self_test():
         for file, text in (("gnomon", SCRIPT), ("bin/gnomon_game", GAME), ("bin/gnomon_bench", BENCH)):
             (root / file).write_text(text, encoding="utf-8")
             (root / file).chmod(0o755)
+        (root / "include").mkdir()
+        for mention, expected in (("two", 0), ("too", 1)):
+            (root / "include/a.h").write_text("// see docs/%s.md\n" % mention, encoding="utf-8")
+            if len(wrong_mentions(root)) != expected:
+                missed.append("a comment that names docs/%s.md" % mention)
+        (root / "include/a.h").unlink()
         for before, after, expected in (("", "", ""), *SPOILT):
             text = GOOD.replace(before, after) if before else GOOD
             if expected == "clicks":
@@ -241,7 +269,7 @@ def self_test():
             found, _ = faults(root, root / "bin")
             if bool(found) != bool(expected) or not all(expected in line for line in found):
                 missed.append("'%s' in place of '%s' gives %s" % (after, before, found))
-    print(*missed, "%d spoilt, %d not found" % (len(SPOILT), len(missed)), sep="\n")
+    print(*missed, "%d spoilt, %d not found" % (len(SPOILT) + 2, len(missed)), sep="\n")
     return 1 if missed else 0
 
 

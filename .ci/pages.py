@@ -43,7 +43,7 @@ def blank(match):
     return re.sub(r"[^\n]", " ", match.group())
 
 
-def prose(text):
+def without_code(text):
     """The page with blocks of code and code in backticks blanked, so that positions stay."""
     text = FENCE.sub(blank, text)
     return re.sub(r"(`+)(?!`)(?:(?!\n\n).)*?(?<!`)\1(?!`)", blank, text, flags=re.DOTALL)
@@ -75,7 +75,7 @@ def anchors(text):
 
 def links(text):
     """Yields (line, target, is a picture) of each link and picture of a page."""
-    plain = prose(text)
+    plain = without_code(text)
     # Links may have code as their text, which is blanked in `plain`: targets are read from there, since none has backticks.
     for match in LINK.finditer(plain):
         yield line_of(text, match.start()), match["target"], bool(match["picture"])

@@ -6,6 +6,7 @@
 #include "bench/common/parse_arguments.h"
 #include "bench/embed/host_engine.h"
 #include "bench/frame/frame_times.h"
+#include "bench/text/wrap_lines.h"
 
 namespace gnomon::bench {
 namespace {
@@ -175,7 +176,7 @@ void add_embed(CLI::App& command, Arguments& arguments) {
     command.add_option("--only", options.only, "part of kind and filter, as 'spots default' (default: all)");
     command.add_flag("--quick", options.quick, "1 and 8 lights, fewer filters and rounds");
     command.add_flag("!--no-lookup-all", options.whole_text, "leave out lookup_all: its shader takes long to compile");
-    command.footer([] { return embed_legend(); });
+    command.footer([] { return wrapped(embed_legend()); });
 }
 
 void add_check(CLI::App& command, Arguments& arguments) { add_check_options(command, arguments.check); }

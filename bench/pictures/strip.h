@@ -18,7 +18,7 @@ struct StripLight {
 /// Column of the strip.
 struct StripColumn {
     std::string name;                   // "tutorial", "gnomon", "truth"
-    std::vector<std::string> settings;  // of every light
+    std::vector<std::string> settings;  // set for every light
     std::vector<StripLight> lights;
     std::vector<std::uint8_t> rgba;   // the whole picture, top row first
     std::vector<std::uint8_t> wrong;  // 1 where any light is wrong, rows from the bottom

@@ -161,16 +161,16 @@ def landmarks(scene):
                            "ms", "× defaults", "kept, ms"], rows)
 
 
-def front_lines(scene, light):
-    """A line per truth and time with the rows of the front, the cheapest first."""
-    lines = ""
+def front_rows(scene, light):
+    """A row per truth and time with the rows of the front, the cheapest first."""
+    rows = []
     for truth in TRUTHS:
         for cost in COSTS:
             best = [c for c in scene.choices(light, truth, cost) if c.best]
             if best:
-                lines += "- %s, %s, maps %s: %s\n" % (light, truth, cost, "; ".join(
-                    "`%s` %s × %.3g" % (c.name, percent(c.error), c.cost) for c in best))
-    return lines
+                rows.append([light, truth, cost, "<br>".join(
+                    "`%s` %s × %.3g" % (c.name, percent(c.error), c.cost) for c in best)])
+    return rows
 
 
 def bounds(scene):
@@ -199,9 +199,12 @@ def markdown(scene):
                 text += markdown_table([light if truth == "point" else light + ", soft", "error", "time, × defaults",
                                         "× time for half the error"], [["`%s`" % row[0], *row[1:]] for row in rows])
     text += "### The defaults beside what tutorials set up\n\n" + landmarks(scene)
-    text += "### Rows that are best at some cost\n\n" + "".join(front_lines(scene, light) for light in scene.lights)
+    text += "### Rows that are best at some cost\n\n" + markdown_table(
+        ["light", "truth about a", "maps", "row, error, × the defaults' time"],
+        [row for light in scene.lights for row in front_rows(scene, light)])
     never = ", ".join("`%s`" % name for name in scene.never_best()) or "none"
-    return text + "\nNever best, for any light, truth or time: %s.\n\n### The bound\n\n%s" % (never, bounds(scene))
+    text += markdown_table(["never best, for any light, truth or time"], [[never]])
+    return text + "### The bound\n\n%s" % bounds(scene)
 
 
 def replace_section(page, name, text):

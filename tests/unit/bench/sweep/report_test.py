@@ -164,7 +164,7 @@ class Files(unittest.TestCase):
         figures(data, 2).update(unexplained=2.0, edge_places=70.0)
         text = report.markdown(Scene(data))
         for part in ("Device: a device.", "| `fine` | 1 % | 1.5 | 1.5 |", "| sun | 1 | 70 | 0 | 0 | 0 | 2 | `fine` |",
-                     "| tutorial, 1024 | sun | 8 | - |", "- sun, point, maps drawn: `tutorial, 1024` 8 % × 0.9; "):
+                     "| tutorial, 1024 | sun | 8 | - |", "| sun | point | drawn | `tutorial, 1024` 8 % × 0.9<br>`"):
             self.assertIn(part, text)
 
     def test_the_page_opens_with_one_sentence_and_its_plots(self):
