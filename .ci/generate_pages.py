@@ -67,12 +67,12 @@ def values(text):
     return ", ".join(code(word) if re.fullmatch(r"[a-z_0-9]*[a-z_]+[a-z_0-9]*", word) else word for word in words)
 
 
-def setting_rows(settings):
-    return [[code(s["key"]), values(s["values"]), code(s["default"]), code(s["field"]),
-             s["meaning"] + (". Needs " + s["needs"] if s["needs"] else "")] for s in settings]
+def setting_rows(settings, with_component=False):
+    return [[code(s["key"]), code(s["field"] if with_component else re.split(r"::|\.", s["field"])[-1]), values(s["values"]),
+             code(s["default"]), s["meaning"] + (". Needs " + s["needs"] if s["needs"] else "")] for s in settings]
 
 
-SETTING_HEAD = ["key", "values", "default", "field", "meaning"]
+SETTING_HEAD = ["key", "field", "values", "default", "meaning"]
 
 
 def all_settings(tables):
@@ -83,17 +83,24 @@ def settings_by_group(tables, wanted):
     """Tables of the C++ components' groups; of one group its table alone."""
     if wanted:
         return table(SETTING_HEAD, setting_rows(next(g["settings"] for g in tables["settings"] if g["name"] == wanted)))
-    return "\n".join("**%s**: %s.\n\n%s" % (g["name"].capitalize(), g["meaning"], table(SETTING_HEAD, setting_rows(g["settings"])))
+    return "\n".join("**%s**: %s\n\n%s" % (g["name"], g["meaning"], table(SETTING_HEAD, setting_rows(g["settings"])))
                      for g in tables["settings"])
 
 
 def settings_by_purpose(tables, wanted):
     """Tables of the panel's groups; of one group its table alone."""
     def rows(name):
-        return table(SETTING_HEAD, setting_rows([s for s in all_settings(tables) if s["purpose"] == name]))
+        return table(SETTING_HEAD, setting_rows([s for s in all_settings(tables) if s["purpose"] == name], True))
     if wanted:
         return rows(next(p["name"] for p in tables["purposes"] if p["name"] == wanted))
-    return "\n".join("**%s**: %s.\n\n%s" % (p["name"].capitalize(), p["meaning"], rows(p["name"])) for p in tables["purposes"])
+    return "\n".join("**%s**: %s\n\n%s" % (p["name"], p["meaning"], rows(p["name"])) for p in tables["purposes"])
+
+
+def key_rows(tables):
+    """Rows of the window's keys; those that work in a part alone name it."""
+    first = tables["keys"][0]["place"]
+    return [[k["keys"], k["gamepad"], k["meaning"] + ("" if k["place"] == first else " (%s)" % k["place"])]
+            for k in tables["keys"]]
 
 
 def options_table(text):
@@ -115,6 +122,18 @@ def options_table(text):
         shown = names[-1] + (" " + value[1] if value else "")
         cells.append([code(shown), meaning[value.end():] if value else meaning])
     return table(["flag", "meaning"], cells)
+
+
+def subcommands(text):
+    """Names and words of the subcommands in a --help of CLI11."""
+    rows = []
+    for line in text[text.index("Subcommands:"):].splitlines()[1:]:
+        begin = re.match(r"  (\w+)(?:  +(.*))?$", line)
+        if begin:
+            rows.append([begin[1], begin[2] or ""])
+        elif rows and re.match(r" {6,}\S", line):
+            rows[-1][1] = (rows[-1][1] + " " + line.strip()).strip()
+    return rows
 
 
 def commands_table(text):
@@ -142,6 +161,10 @@ class Facts:
         done = subprocess.run([str(self.folder / program), *arguments], stdout=subprocess.PIPE, text=True, timeout=60, check=True)
         return done.stdout
 
+    def commands(self):
+        done = subprocess.run([str(self.root / "gnomon"), "help"], stdout=subprocess.PIPE, text=True, check=True)
+        return commands_table(done.stdout)
+
     def block(self, name):
         """Text of a generated block. Raises KeyError or StopIteration if there is no such block."""
         words = name.split(" ", 1)
@@ -161,18 +184,16 @@ class Facts:
             "filters": lambda: table(["filter", "taps: flat map, cube", "half-width, texels", "source", "file"], [
                 [code(f["name"]), "%d, %d" % (f["taps"], f["taps_cube"]), "%.3g" % f["reach_texel"],
                  "soft" if f["soft"] else "a point", code(f["file"])] for f in tables["filters"]]),
-            "reasons": lambda: table(["reason", "meaning"], [[code(r["code"]), r["meaning"]] for r in tables["reasons"]]),
+            "reasons": lambda: table(["reason", "state", "meaning", "what to do"], [
+                [code(r["code"]), r["states"], r["meaning"].rstrip("."), r["cure"] or "–"] for r in tables["reasons"]]),
             "debug views": lambda: table(["view", "shows"], [
                 [code(v["name"] + ("[:LIGHT]" if v["of_all"] else ":LIGHT")), v["meaning"]] for v in tables["debug_views"]]),
-            "keys": lambda: "\n".join(
-                "To %s:\n\n%s" % (place, table(["key", "what it does"],
-                                              [[k["keys"], k["meaning"]] for k in tables["keys"] if k["place"] == place]))
-                if place.startswith("look") else
-                "In %s also:\n\n%s" % (place, table(["key", "what it does"],
-                                                   [[k["keys"], k["meaning"]] for k in tables["keys"] if k["place"] == place]))
-                for place in dict.fromkeys(k["place"] for k in tables["keys"])),
-            "commands": lambda: commands_table(subprocess.run([str(self.root / "gnomon"), "help"], stdout=subprocess.PIPE,
-                                                              text=True, check=True).stdout),
+            "keys": lambda: table(["key", "gamepad", "does"], key_rows(tables)),
+            "gnomon": self.commands,
+            "commands": self.commands,
+            "play": lambda: options_table(self.output("gnomon_game", "--help")),
+            "bench": lambda: table(["measurement", "what it does"], [
+                [code(name), words] for name, words in subcommands(self.output("gnomon_bench", "--help"))]),
         }[name]()
 
 
@@ -180,8 +201,8 @@ def names_of(facts):
     tables = facts.tables
     return (["settings"] + ["settings " + g["name"] for g in tables["settings"]] + ["purposes"] +
             ["settings for " + p["name"] for p in tables["purposes"]] +
-            ["presets", "filters", "reasons", "debug views", "keys", "commands", "options game"] +
-            ["options bench " + name for name in re.findall(r"^  ([a-z]+)\b", facts.output("gnomon_bench", "--help"), re.MULTILINE)])
+            ["presets", "filters", "reasons", "debug views", "keys", "commands", "gnomon", "play", "bench", "options game"] +
+            ["options bench " + name for name in [name for name, _ in subcommands(facts.output("gnomon_bench", "--help"))]])
 
 
 # --- pages ------------------------------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "sample_game/gui/keys.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/presets.h"
+#include "sample_game/support/settings/reason_rows.h"
 #include "sample_game/support/settings/setting_uses.h"
 #include "systems/debug/debug_view.h"
 #include "systems/shadow/request/filter_table.h"
@@ -76,10 +77,11 @@ Json filters_json() {
 
 Json reasons_json() {
     Json rows = Json::array();
-    for (int i = 0; i < static_cast<int>(Reason::count); ++i) {
-        const auto reason = static_cast<Reason>(i);
-        rows.push_back({{"code", reason_code(reason)}, {"meaning", reason_text(reason)}});
-    }
+    for (const ReasonRow& row : reason_rows())
+        rows.push_back({{"code", reason_code(row.reason)},
+                        {"states", row.states},
+                        {"meaning", reason_text(row.reason)},
+                        {"cure", row.cure}});
     return rows;
 }
 
@@ -94,8 +96,10 @@ Json views_json() {
 Json keys_json() {
     Json rows = Json::array();
     for (const KeyRow& row : key_table())
-        rows.push_back(
-            {{"place", kKeyPlaces[static_cast<std::size_t>(row.place)]}, {"keys", row.keys}, {"meaning", row.meaning}});
+        rows.push_back({{"place", kKeyPlaces[static_cast<std::size_t>(row.place)]},
+                        {"keys", row.keys},
+                        {"gamepad", row.gamepad},
+                        {"meaning", row.meaning}});
     return rows;
 }
 

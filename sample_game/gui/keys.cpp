@@ -6,18 +6,19 @@ namespace gnomon::game {
 namespace {
 
 constexpr KeyRow kKeys[] = {
-    {KeyPlace::shadows, "F5", "freeze the frame and mark every pixel that ray-traced truth calls wrong"},
-    {KeyPlace::shadows, "F1", "lights: what each shadow costs, how exact it is, and all settings"},
-    {KeyPlace::shadows, "F3", "next debug view: cascades, texels, bias, frusta ..."},
-    {KeyPlace::shadows, "F2", "the same view of the next light; after F5 the next light's errors"},
-    {KeyPlace::shadows, "F4", "keep the maps' fits while the camera goes on"},
-    {KeyPlace::shadows, "P", "pause"},
-    {KeyPlace::shadows, "W A S D", "walk; Shift: faster"},
-    {KeyPlace::shadows, "mouse", "click to look around, Tab to free it"},
-    {KeyPlace::shadows, "Esc", "quit"},
-    {KeyPlace::game, "R", "restart"},
-    {KeyPlace::game, "Left, Right", "move the sun"},
-    {KeyPlace::scene, "Q, E", "fly down, up"},
+    {KeyPlace::shadows, "F5", "", "freeze the frame and mark every pixel that ray-traced truth calls wrong"},
+    {KeyPlace::shadows, "F1", "", "lights: what each shadow costs, how exact it is, and all settings"},
+    {KeyPlace::shadows, "F3", "", "next debug view: cascades, texels, bias, frusta ..."},
+    {KeyPlace::shadows, "F2", "", "the same view of the next light; after F5 the next light's errors"},
+    {KeyPlace::shadows, "F4", "", "freeze the maps' fits while the camera goes on"},
+    {KeyPlace::shadows, "P", "start", "pause"},
+    {KeyPlace::shadows, "W A S D", "left stick", "walk"},
+    {KeyPlace::shadows, "Shift", "right trigger, bumpers", "walk faster"},
+    {KeyPlace::shadows, "mouse", "right stick", "click to look around, Tab to free it"},
+    {KeyPlace::shadows, "Esc", "", "quit"},
+    {KeyPlace::game, "R", "back", "restart"},
+    {KeyPlace::game, "Left, Right", "cross, left and right", "move the sun"},
+    {KeyPlace::scene, "Q, E", "", "fly down, up"},
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ inline constexpr std::array<const char*, 3> kKeyPlaces{"look at the shadows", "t
 struct KeyRow {
     KeyPlace place;
     const char* keys;
+    const char* gamepad;  // the same on a gamepad; empty: nothing
     const char* meaning;  // one line
 };
 /// Returns all keys, first the keys that show shadows.

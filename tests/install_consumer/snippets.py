@@ -2,7 +2,9 @@
 """Checks that code in the pages is code that a test builds and runs.
 
 - A block below a line `<!-- FILE: NAME -->` must equal what stands in FILE between two lines `// [NAME]`.
-- A block below a line `<!-- file: NAME -->` is a whole file of the tutorial: tutorial.py builds and runs it.
+  Where NAME is `whole file`, it must equal all of FILE.
+- A block below a line `<!-- file: NAME -->` is a whole file of the tutorial: tutorial.py builds and runs it. Its main.cpp must
+  equal its example.
 - Any other block of C++, GLSL or CMake must be cut from a file of examples/, tests/ or sample_game/ (shaders: of shaders/ as
   well). White space does not count; a line `...`, alone or as a comment, stands for lines that are left out.
 Blocks that are none of these are listed in .ci/loose_code.txt, which may only shrink.
@@ -21,6 +23,8 @@ import pages  # noqa: E402
 LOOSE = ".ci/loose_code.txt"
 BLOCK = re.compile(r"(<!-- (?P<file>\S+): (?P<name>[^\n]+?) -->\n```(?:cpp|hlsl|glsl|cmake)\n)(?P<code>.*?)(```\n)", re.DOTALL)
 OF_TUTORIAL = "file"
+# The tutorial's files that stand elsewhere, too.
+TUTORIAL = {"main.cpp": "examples/first_shadow.cpp"}
 C_LIKE, SHADER, BUILD = {".cpp", ".h"}, {".glsl", ".vert", ".frag", ".geom", ".comp"}, {".txt", ".cmake"}
 LANGUAGES = {"cpp": C_LIKE, "c++": C_LIKE, "glsl": SHADER | C_LIKE, "hlsl": SHADER | C_LIKE, "cmake": BUILD}
 FOLDERS = ("examples", "tests", "sample_game")
@@ -38,14 +42,22 @@ def region(text, name):
     return "".join(line[indent:] + "\n" for line in inside)
 
 
+def is_checked(match):
+    return match["file"] != OF_TUTORIAL or match["name"] in TUTORIAL
+
+
 def wanted(root, match):
-    file = root / match["file"]
-    return region(file.read_text(encoding="utf-8"), match["name"]) if file.is_file() else None
+    name, whole = match["name"], match["name"] == "whole file"
+    if match["file"] == OF_TUTORIAL:
+        name, whole = TUTORIAL.get(name, ""), True
+    file = root / (name if match["file"] == OF_TUTORIAL else match["file"])
+    text = file.read_text(encoding="utf-8") if file.is_file() else None
+    return text if whole or text is None else region(text, name)
 
 
 def wrong_blocks(root, text):
     return [f"{m['file']}: {m['name']}" for m in BLOCK.finditer(text)
-            if m["file"] != OF_TUTORIAL and m["code"] != wanted(root, m)]
+            if is_checked(m) and m["code"] != wanted(root, m)]
 
 
 # --- blocks without a mark --------------------------------------------------------------------------------------------
@@ -107,7 +119,7 @@ def self_test(root, guides):
     missed = count = 0
     for text in guides.values():
         for match in BLOCK.finditer(text):
-            if match["file"] == OF_TUTORIAL:
+            if not is_checked(match):
                 continue
             at = match.start("code")
             missed += not wrong_blocks(root, text[:at] + "~" + text[at:])

@@ -14,6 +14,7 @@ failures=0
 mkdir -p "$project" "$work/bin" "$work/elsewhere"
 cp "$launcher" "$project/gnomon"
 echo '{}' >"$project/CMakePresets.json"
+echo "project(Gnomon VERSION 1.2.3)" >"$project/CMakeLists.txt"
 printf '%s\n' '# the list' 'here  # is installed' 'older|newer  # one of two is installed' 'absent  # must come' \
     'first|second  # only the second exists' 'slow  # test: for tests only' >"$project/packages.txt"
 
@@ -111,6 +112,26 @@ expect "a sweep that fails passes its status on" is "$status" 2
 expect "and has no report" not_has "$out" report.py
 run GNOMON_SKIP_DEPS=1 -- bench accuracy --json quick
 expect "other measurements have none" not_has "$out" report.py
+run GNOMON_SKIP_DEPS=1 -- bench frame --markdown "a page.md" --rounds 2
+expect "a page gets the stamp of the command" has "$out" \
+    "generate_pages.py --bin $project/build/release/bin --stamp a page.md -- bench frame --markdown a page.md --rounds 2"
+run GNOMON_SKIP_DEPS=1 GAME_STATUS=2 -- bench frame --markdown page.md
+expect "a measurement that fails stamps nothing" not_has "$out" --stamp
+run GNOMON_SKIP_DEPS=1 -- docs --check
+expect "docs --check compares the pages" has "$out" "generate_pages.py --bin $project/build/release/bin --check"
+stand_in doxygen 'echo "doxygen $* to ${GNOMON_DOCS_OUT#"$PROJECT"} errors=$GNOMON_DOCS_ERRORS" >>"$CALLS"; exit "${DOXYGEN_STATUS:-0}"'
+stand_in xdg-open 'echo "xdg-open ${1#"$PROJECT"}" >>"$CALLS"'
+run GNOMON_SKIP_DEPS=1 -- docs
+expect "docs builds the reference, in the project's folder" called "doxygen docs/doxygen/Doxyfile to /build/docs errors=YES"
+expect "and opens it" called "xdg-open /build/docs/html/index.html"
+run GNOMON_SKIP_DEPS=1 -- docs --print
+expect "docs --print opens nothing" not_called xdg-open
+expect "but says where it is" has "$err" "build/docs/html/index.html"
+run GNOMON_SKIP_DEPS=1 DOXYGEN_STATUS=1 -- docs
+expect "a warning of the reference is status 1" is "$status" 1
+expect "and opens nothing" not_called xdg-open
+run -- docs --bogus
+expect "another flag of docs is status 2" is "$status" 2
 run NINJA_SAYS='ninja: no work to do.' -- play
 expect "an up-to-date build says nothing" is "$err" ""
 expect "and builds nothing" not_called cmake
