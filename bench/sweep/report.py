@@ -29,6 +29,11 @@ def plain(value, digits=2):
     return "%d" % rounded if abs(rounded) >= 10.0 ** (digits - 1) else ("%.10f" % rounded).rstrip("0").rstrip(".")
 
 
+def grouped(value):
+    """The same, with a space after thousands."""
+    return "{:,}".format(int(plain(value))).replace(",", " ") if value >= 1000.0 else plain(value)
+
+
 def percent(share):
     return plain(100.0 * share) + " %"
 
@@ -46,9 +51,9 @@ def lead_words(scenes):
             found, beside = scene.halving(light, "point").defaults, scene.beside_tutorial(light)
             if found and beside:
                 time = beside.drawn if beside.kept is None else beside.kept
-                return ("Of each million pixels that “%s” may light in %s, a tutorial's shadow map gets %s wrong and "
-                        "Gnomon's defaults %s, for %s times the tutorial's time." % (
-                            light, scene.data["scene"], plain(1.0e6 * beside.tutorial.error), plain(1.0e6 * found.error),
+                return ("Of each million pixels that the light “%s” reaches in the scene “%s”, a tutorial's shadow map gets %s "
+                        "wrong and Gnomon's defaults %s, for %s times the tutorial's time." % (
+                            light, scene.data["scene"], grouped(1.0e6 * beside.tutorial.error), grouped(1.0e6 * found.error),
                             plain(time)))
     return "Each dot is one way to draw shadows: how many pixels are wrong, and how long it takes."
 

@@ -173,8 +173,8 @@ class Files(unittest.TestCase):
         lead, plot, fold = (body.index(part) for part in ('class="lead"', "<svg", "<details"))
         self.assertLess(lead, plot)
         self.assertLess(plot, fold)
-        self.assertIn("Of each million pixels that “sun” may light in a scene, a tutorial's shadow map gets 80000 wrong and "
-                      "Gnomon&#x27;s defaults 20000, for 1.1 times the tutorial".replace("tutorial's", "tutorial&#x27;s"), body)
+        self.assertIn("Of each million pixels that the light “sun” reaches in the scene “a scene”, a tutorial&#x27;s shadow map "
+                      "gets 80 000 wrong and Gnomon&#x27;s defaults 20 000, for 1.1 times the tutorial", body)
         self.assertLess(len(re.sub("<[^>]*>", "", body[:plot]).split()), 120, "words before the first plot")
         self.assertIn("One has less error than the defaults, and 1 less time; nothing has both.", body)
         self.assertEqual(body.count("<details"), body.count("</details>"))
