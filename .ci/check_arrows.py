@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks which part of Gnomon may know which, as docs/conventions.md states it, and that no file grows too long.
+"""Checks which part of Gnomon may know which (docs/contributors/conventions.md), and that no file grows too long.
 
 usage: check_arrows.py [ROOT]       prints one line per breach; exit status 1 if there is any
        check_arrows.py --self-test  builds small trees with one breach each and expects every one to be found

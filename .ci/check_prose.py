@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts breaches of the rules for comments and documents in docs/conventions.md ("Words"). The counts may only fall.
+"""Counts breaches of the rules for comments and documents (docs/contributors/conventions.md). They may only fall.
 
 usage: check_prose.py               prints folders with more breaches than .ci/prose_breaches.txt allows; exit 1 if any
        check_prose.py FOLDER ...    prints every breach below these folders or files

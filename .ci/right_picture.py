@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "e2e")
 sys.dont_write_bytecode = True
 from game import Picture  # noqa: E402
 
-MOST_WRONG = 0.0005  # of a light's pixels: what docs/accuracy.md says of the defaults
+MOST_WRONG = 0.0005  # of a light's pixels: what docs/results/accuracy.md says of the defaults
 LEAST_WITHOUT_SHADOWS = 0.01
 MOST_DIFFERENT = 0.001  # of the pictures' channels: drivers round differently along edges
 LEVELS = 8  # of 255, by which a pixel may differ

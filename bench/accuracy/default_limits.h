@@ -4,8 +4,8 @@
 
 namespace gnomon::bench {
 
-/// Bounds that the defaults meet for every light in every scene, as shares of scored pixels (docs/cost.md). No acne is
-/// allowed, either. Shadows narrower than their map's texels are beyond them.
+/// Bounds that the defaults meet for every light in every scene, as shares of scored pixels (docs/results/cost.md). No
+/// acne is allowed, either. Shadows narrower than their map's texels are beyond them.
 inline constexpr double kMostWrongByDefault = 0.0005, kMostLeakByDefault = 0.0001;
 
 /// Errors that a light is judged by, as shares of its scored pixels. Far: neither an edge nor the map's texels there

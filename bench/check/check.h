@@ -45,7 +45,7 @@ std::string check_verdict(const Check& check);
 /// Returns a text for people, at most 120 characters a line. It ends with
 /// check_verdict().
 std::string check_text(const Check& check);
-/// Returns all results for reports and scripts: docs/check.md lists the keys.
+/// Returns all results for reports and scripts: docs/reference/check.md lists the keys.
 std::string check_json(const Check& check);
 
 }  // namespace gnomon::bench

@@ -7,7 +7,7 @@
 namespace gnomon::bench {
 
 /// Returns how far a value may be from the truth where no edge is near.
-/// docs/check.md derives the tolerances. Depending on the filter it is
+/// docs/reference/check.md derives the tolerances. Depending on the filter it is
 /// - a step of eight bits, which samplers weigh by;
 /// - the share of one ray of exact_soft;
 /// - a half for filters that estimate.

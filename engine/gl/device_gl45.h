@@ -21,7 +21,7 @@ using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 struct Gl45Options {
     /// Every call leaves all state and pending errors of the context as it found them, and the sink hears only messages
     /// of these calls. A list costs a query per piece of state that it sets, and a change where it differs.
-    /// If false, lists leave the state that docs/embedding.md names.
+    /// If false, lists leave the state that docs/contributors/stages.md names.
     bool keeps_state = false;
 };
 

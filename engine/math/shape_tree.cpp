@@ -9,7 +9,7 @@ namespace gnomon::math {
 namespace {
 
 /// Maximum number of parts in a leaf, if they lie close together. Distant parts (a wall and a floor) are split, because
-/// the room between them is empty. Measured on Sponza: docs/culling.md, "Where seeing begins".
+/// the room between them is empty. Measured on Sponza: docs/explanation/culling.md, "Where seeing begins".
 constexpr std::size_t kLeafParts = 8;
 constexpr float kLeafShare = 1.0f / 64.0f;  // largest leaf with several parts, relative to the shape
 /// Rounding of a GPU's float coordinates: eight units in the last place. The basis, three products, their sums and the

@@ -11,7 +11,7 @@
 
 /// Shadow maps for engines on any graphics API: where the maps lie, how large they are, and what is drawn into each.
 /// Predicts how far an edge may be off. Draws nothing and needs GLM alone (target Gnomon::core); the guide is
-/// docs/core.md.
+/// docs/how-to/other_graphics_apis.md.
 ///
 /// The world is right-handed, in metres; angles are in radians. Suffixes name units and spaces: `_ws` world, `_px`
 /// pixels or texels of a map's edge, `_texel` lengths in texels. Matrices are `a_from_b` and multiply columns, as
@@ -191,8 +191,8 @@ struct Range {
 /// How a view projects: parallel, as a spot, or as a face of a cube.
 enum class ViewKind : std::uint8_t { orthographic, perspective, cube_face };
 
-/// Numbers of the offset that keeps a surface from shadowing itself; offset_at() computes it. docs/core.md has the same
-/// as shader code.
+/// Numbers of the offset that keeps a surface from shadowing itself; offset_at() computes it.
+/// docs/how-to/other_graphics_apis.md has the same as shader code.
 struct Bias {
     /// Sides of a texel along `axis_u` and `axis_v`: metres, or metres per metre of distance along the view
     /// (perspective, cube_face).
@@ -320,9 +320,10 @@ struct Offset {
     double depth = 0.0;  // then its stored depth is moved toward the light: added where reversed, else subtracted
 };
 
-/// Returns the smallest offset that keeps a plane from shadowing itself (docs/bias.md). `normal_ws`: geometric, unit,
-/// toward the light. `error_m`: how far the position may be off the plane, beside the rounding of its floats relative
-/// to the anchor. `normal_error_rad`: how far the normal may be off; the default is that of two signed 16-bit numbers.
+/// Returns the smallest offset that keeps a plane from shadowing itself (docs/explanation/bias.md). `normal_ws`:
+/// geometric, unit, toward the light. `error_m`: how far the position may be off the plane, beside the rounding of its
+/// floats relative to the anchor. `normal_error_rad`: how far the normal may be off; the default is that of two signed
+/// 16-bit numbers.
 Offset offset_at(const View& view, const glm::dvec3& position_ws_m, const glm::dvec3& normal_ws, double error_m = 0.0,
                  double normal_error_rad = 4.3e-5);
 

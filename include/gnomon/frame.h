@@ -30,7 +30,7 @@ struct ViewRow;
 /// Finds a view, for example "cascades"; null if there is none of that name.
 const ViewRow* find_view(std::string_view name);
 
-/// Debug view to draw over the picture; docs/debug.md shows all.
+/// Debug view to draw over the picture; docs/how-to/debug.md shows all.
 struct Request {
     const ViewRow* view = nullptr;            // null: none, at no cost
     std::string light = {};                   // name of the light; empty: all, for views that can show all
@@ -49,11 +49,11 @@ struct Label {
 
 namespace gnomon::shadow {
 
-/// Limits on all shadows together (docs/economy.md, "Budgets"). 0, negative or NaN: no limit.
+/// Limits on all shadows together (docs/how-to/budgets.md). 0, negative or NaN: no limit.
 struct ShadowBudget {
     std::uint64_t bytes = 0;  // GPU memory of all lights: maps, triangles, moments, copies
     float gpu_ms = 0.0f;      // GPU time per frame for drawing maps and looking them up
-    std::uint64_t rays = 0;   // predicted rays per frame of lights that use rays (docs/exact.md)
+    std::uint64_t rays = 0;   // predicted rays per frame of lights that use rays (docs/how-to/budgets.md)
     bool operator==(const ShadowBudget&) const = default;
 };
 
@@ -86,8 +86,7 @@ struct ViewReport {
     Why why;                                  // numbers behind it
 };
 
-/// Visibility of a light per pixel, kept from an earlier frame instead of looked up (docs/economy.md, "What pixels
-/// saw").
+/// Visibility of a light per pixel, kept from an earlier frame instead of looked up (docs/explanation/caching.md).
 struct KeptReport {
     Reason reason = Reason::none;    // visibility_kept: this frame read it, in at least one picture
     std::uint64_t bytes = 0;         // over all pictures; part of LightCounts::bytes
@@ -229,9 +228,9 @@ struct FrameSettings {
     /// Keep shadows fitted to the cameras of the first frame with this flag, while the picture follows its own camera.
     /// Lights and casters stay live: shadows follow them as the frozen cameras need it.
     bool freeze_fits = false;
-    /// Cost limit for shadows; the least visible ones get less until it is met (docs/economy.md, "Budgets").
+    /// Cost limit for shadows; the least visible ones get less until it is met (docs/how-to/budgets.md).
     shadow::ShadowBudget shadow_budget = {};
-    /// Skip shadows that cannot be seen in the picture (docs/economy.md).
+    /// Skip shadows that cannot be seen in the picture (docs/explanation/caching.md).
     bool leave_out_dim_lights = true;
     /// Maximum number of light programs compiled per frame. Until its program is compiled, a light is looked up with
     /// one tap and reports filter_program_waits. Default: no limit.

@@ -11,7 +11,7 @@ namespace gnomon {
 enum class FilterSeed : std::uint8_t { screen, world };
 
 /// Formula of the offset against self-shadowing. `automatic` derives the smallest offset that keeps a plane from
-/// shadowing itself. The others serve comparison; docs/bias.md has their formulas.
+/// shadowing itself. The others serve comparison; docs/explanation/bias.md has their formulas.
 enum class BiasMode : std::uint8_t {
     automatic,          // derived per pixel; nothing to set
     constant,           // offset_m along the light
@@ -50,7 +50,7 @@ enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen, sampled };
 
 /// How a map stores reversed depth: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and loses
-/// precision far from a spot or a point light. The automatic bias grows by that loss (docs/settings.md).
+/// precision far from a spot or a point light. The automatic bias grows by that loss (docs/reference/settings.md).
 enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 
 /// Optional settings of a light's shadow, grouped by what they tune: a second component beside LightShadow. Without it
@@ -123,7 +123,7 @@ struct ShadowTuning {
     };
     /// A sun's cascades; their number is LightShadow::cascades.
     struct Cascades {
-        /// Fit of the cascades' maps; docs/fits.md compares the three.
+        /// Fit of the cascades' maps; docs/explanation/fits.md compares the three.
         ShadowFit fit = ShadowFit::quantised;
         /// Where cascades end. `practical` is logarithmic where the number of cascades is chosen by the system.
         CascadeSplits splits = CascadeSplits::practical;
@@ -136,7 +136,7 @@ struct ShadowTuning {
         float blend = 0.1f;
         /// Limit of the perspective warp of tight maps, 0 (no warp) to 1 (as light-space perspective shadow maps). A
         /// warp lets texels grow with the distance from the camera. The fit takes as much as gains accuracy
-        /// (docs/fits.md).
+        /// (docs/explanation/fits.md).
         float warp = 0.0f;
         bool operator==(const Cascades&) const = default;
     };

@@ -106,7 +106,7 @@ struct DrawableView {
 };
 
 /// Caster that the engine draws: wind, terrain, tessellation, GPU skinning, particles. Filters that read triangles
-/// treat it by depth (docs/embedding.md). Visibility queries do not see it.
+/// treat it by depth (docs/how-to/foliage.md). Visibility queries do not see it.
 struct DrawableDesc {
     std::function<void(const DrawableView&)> draw =
         {};                // called within render(), for each map that shows it; must not throw, nor call this object
@@ -252,8 +252,8 @@ struct ShadowsOptions {
 
 /// Owner of maps, programs and copies of meshes in one OpenGL context. render() is called once per frame; all else at
 /// any time between. The context must be current in every call, and when the object is destroyed: one object per
-/// context, one thread at a time. Contexts that share its objects have limits (docs/embedding.md). A removed or empty
-/// handle is ignored; handles are those of one object.
+/// context, one thread at a time. Contexts that share its objects have limits (docs/how-to/own_context.md). A removed
+/// or empty handle is ignored; handles are those of one object.
 class Shadows {
 public:
     /// Creates the system for the current context. Errors: "gl.version" (below 4.5 core), "gpu.scene" (no memory).

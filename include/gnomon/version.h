@@ -2,7 +2,7 @@
 
 namespace gnomon {
 
-/// Version, as docs/versions.md defines it.
+/// Version, as docs/reference/versions.md defines it.
 struct Version {
     int major = 0;  // breaks users' code or files
     int minor = 0;  // adds; before 1.0 it may break

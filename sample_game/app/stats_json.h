@@ -10,7 +10,7 @@
 #include "gnomon/result.h"
 #include "sample_game/game/rules.h"
 
-/// The file of --stats; its keys are listed in docs/stats.md.
+/// The file of --stats; its keys are listed in docs/reference/statistics.md.
 namespace gnomon::game {
 
 /// Returns one entry of "frames".

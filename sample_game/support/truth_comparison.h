@@ -71,7 +71,7 @@ private:
     std::uint64_t version_ = 0;
 };
 
-/// Returns the value of key "truth" of the stats (docs/stats.md).
+/// Returns the value of key "truth" of the stats (docs/reference/statistics.md).
 nlohmann::ordered_json truth_stats(const FrozenFrame& frozen);
 
 }  // namespace gnomon::game

@@ -1,4 +1,4 @@
-// Rounding facts used by the bias (docs/bias.md, "Rounding").
+// Rounding facts used by the bias (docs/explanation/bias.md, "Rounding").
 const float kUnitRoundoff = 5.9604645e-8;     // 2^-24, half a unit in the last place of a float
 const float kRasterSnap_texel = 0.00390625;   // 1/256: vertices are snapped to 8 sub-texel bits
 const float kRebuiltRelative = 1.6e-7;        // error of a position rebuilt from depth, per metre of distance

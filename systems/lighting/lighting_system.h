@@ -60,8 +60,8 @@ public:
                 const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome);
 
     /// Reports a submission of what record() recorded: its number, and success. Visibility is cached only if this is
-    /// called. A still picture then reads it instead of looking lights up, to the same bits (docs/economy.md, "What
-    /// pixels saw").
+    /// called. A still picture then reads it instead of looking lights up, to the same bits
+    /// (docs/explanation/caching.md).
     void submitted(std::uint64_t submission, bool drawn);
     /// Learns lookup times from timers of earlier submissions, for reports of the saving.
     void learn(std::span<const gl::Timing> timings) { lookup_times_.learn(timings); }

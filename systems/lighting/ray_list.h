@@ -10,9 +10,9 @@ namespace gnomon::lighting {
 /// 2^28 pixels (16384 x 16384), neither edge longer than 16384. GLSL twin: shaders/lighting/trace/ray_list_layout.glsl.
 glm::uvec2 ray_list_size_px(glm::uvec2 picture_px);
 
-/// List of pixels that a light's map leaves undecided (docs/exact.md), so that rays cost no others. Contains the map's
-/// verdict per pixel, the pixels for rays, and their results. Lights use it one after the other. Uses no memory until
-/// needed.
+/// List of pixels that a light's map leaves undecided (docs/explanation/exact.md), so that rays cost no others.
+/// Contains the map's verdict per pixel, the pixels for rays, and their results. Lights use it one after the other.
+/// Uses no memory until needed.
 class RayList {
 public:
     explicit RayList(gl::Device& device);

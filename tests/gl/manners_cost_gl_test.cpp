@@ -80,7 +80,7 @@ TEST_F(CostOfManners, ATextureCostsTwoQueriesItsBindingAndItsReturn) {
 TEST_F(CostOfManners, StateThatIsAsNeededIsNotSet) {
     const auto first = calls_of(small_list());
     std::cout << "small list: " << first.size() << " calls, " << queries(first) << " of them queries\n";
-    EXPECT_LE(first.size(), 100u) << "docs/embedding.md states 96";
+    EXPECT_LE(first.size(), 100u) << "docs/how-to/own_context.md states 96";
     // The engine's state is the default: only what a list cannot do without differs.
     EXPECT_EQ(count_calls(first, "glEnable") + count_calls(first, "glDisable"), 2u * 4)
         << "dithering, seamless cubes, point size, encoding";

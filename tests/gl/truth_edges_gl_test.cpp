@@ -37,7 +37,7 @@ protected:
         return options;
     }
 
-    /// One row of the table in docs/accuracy.md; the rows are what its figures are of.
+    /// One row of the table in docs/explanation/accuracy.md; the rows are what its figures are of.
     static void print(const bench::StageOptions& options, const bench::LightAccuracy& light) {
         const oracle::EdgeDisplacement& edge = light.metrics.edge;
         std::printf(

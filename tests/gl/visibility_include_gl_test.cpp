@@ -32,7 +32,7 @@ constexpr std::uint32_t kMap_px = 64;
 constexpr std::uint32_t kProbeBinding = 7;  // in probe.frag, beyond what rows bind
 constexpr double kNear_m = 1.0, kFar_m = 9.0, kHalf = 1.0;  // half: metres of the sun's map, tangent of the spot's
 
-// The worked example of docs/adding_a_filter.md: a file and a row.
+// The worked example of docs/contributors/adding_a_filter.md: a file and a row.
 std::string diamond_file() {
     std::ifstream file(test::source_folder() / "tests/gl/diamond.glsl");
     std::stringstream text;

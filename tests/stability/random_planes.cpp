@@ -151,7 +151,7 @@ void show_quad(LonePlane& plane, const glm::dvec3& place_m, const glm::dvec3& to
     plane.quad_at_m = plane.receiver_m + off_m + share(random) * plane.half_u_m + share(random) * plane.half_v_m;
 }
 
-/// Of any slope, drawn and seen as docs/bias.md says ("What is tested").
+/// Of any slope, drawn and seen as docs/explanation/bias.md says ("What is tested").
 LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& place, const glm::dvec3& normal) {
     const PlaneBounds bounds = plane_bounds();
     LonePlane plane;

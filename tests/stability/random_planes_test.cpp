@@ -12,7 +12,7 @@
 
 /// A plane never shadows itself, and an offset a tenth smaller would not do: for every kind of light, filter and
 /// format. 20 000 planes of each in a short run, 100 000 with GNOMON_LONG, any number with GNOMON_PLANES (a million is
-/// recorded in docs/reliability.md).
+/// recorded in docs/contributors/reliability.md).
 namespace gnomon {
 namespace {
 

@@ -11,7 +11,7 @@
 #include "tests/source_paths.h"
 #include "tests/system/frame_fixture.h"
 
-/// Every reason has a code of its own, a line in docs/economy.md, and a scene that gives it.
+/// Every reason has a code of its own, a line in docs/reference/reasons.md, and a scene that gives it.
 namespace gnomon {
 namespace {
 
@@ -42,7 +42,7 @@ TEST(Reasons, AllHaveCodesOfTheirOwn) {
 }
 
 TEST(Reasons, AllAreDocumented) {
-    const std::string page = text_of("docs/economy.md");
+    const std::string page = text_of("docs/reference/reasons.md");
     for (const Reason reason : all_reasons())
         EXPECT_NE(page.find("\n| `" + std::string(reason_code(reason)) + "` |"), std::string::npos)
             << reason_code(reason);

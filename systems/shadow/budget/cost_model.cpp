@@ -37,8 +37,7 @@ double seen_texel(const ShadowRequest& request) {
 }
 
 /// Returns the mean edge error as a share of its bound, relative to a filter that counts texels. A fifth for filters
-/// that test the casters' own triangles, a half for filters that average texels (docs/accuracy.md, "Filters and
-/// sizes").
+/// that test the casters' own triangles, a half for filters that average texels (docs/results/accuracy.md).
 double usual_share(const FilterRow& row) {
     if (row.storage.triangle_ids) return 0.2;
     return row.reading == MapReading::depths ? 0.5 : 1.0;

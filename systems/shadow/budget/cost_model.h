@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kLeastGranted_px = 64;
 /// - A fetch lies between the texture units' 0.007 ns and a sector of 32 bytes of its own, 0.17 ns.
 /// - A lit pixel reads 20 bytes of surfaces and blends 16, 0.2 ns. Some 1000 operations take another 0.25 ns.
 ///
-/// `./gnomon bench budget` measures the same six on a device (docs/economy.md, "Budgets").
+/// `./gnomon bench budget` measures the same six on a device (docs/explanation/budgets.md).
 inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
 inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
 

@@ -15,10 +15,10 @@
 
 namespace gnomon::shadow {
 
-/// Recorder of the last pass of views with BoundsMaps::bounds (docs/exact.md). Per texel, it finds the nearest place
-/// where a surface may end. It also finds a bound on the difference between a surface's depths and that in the texel's
-/// middle. The DepthPass draws the first two passes, nearest and second depths. Programs, surfaces and buffers are
-/// made on first use.
+/// Recorder of the last pass of views with BoundsMaps::bounds (docs/explanation/exact_proof.md). Per texel, it finds
+/// the nearest place where a surface may end. It also finds a bound on the difference between a surface's depths and
+/// that in the texel's middle. The DepthPass draws the first two passes, nearest and second depths. Programs, surfaces
+/// and buffers are made on first use.
 class BoundsPass {
 public:
     /// Options for tests: without margins, to show that they are needed; with quads alone, to show that points cover

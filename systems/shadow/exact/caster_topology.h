@@ -7,8 +7,8 @@
 #include "engine/mesh/surface_edges.h"
 #include "systems/extract/gpu_scene.h"
 
-/// Surfaces of meshes as conservative maps need them (docs/exact.md): facets, and the edges at which a surface can end
-/// as a light sees it.
+/// Surfaces of meshes as conservative maps need them (docs/explanation/exact_proof.md): facets, and the edges at which
+/// a surface can end as a light sees it.
 namespace gnomon::shadow {
 
 /// Opaque and masked surfaces of a mesh, bent as on the device.

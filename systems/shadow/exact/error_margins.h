@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-/// Margins of conservative maps, derived in docs/exact.md. The same numbers are in
+/// Margins of conservative maps, derived in docs/explanation/exact_proof.md. The same numbers are in
 /// shaders/shadow/filters/exact/error_margins.glsl; the test SheetMargins.AreTheSameInShaders compares them.
 namespace gnomon::shadow {
 

@@ -8,8 +8,9 @@
 /// Bound on how far a shadow edge may be off on the screen, known before anything is drawn.
 ///
 /// A map samples the light at texel centres only. A receiver's lookup is up to half a texel away from the centre, or E
-/// for a filter of radius E texels. The bias that keeps the receiver's plane from shadowing itself (docs/bias.md) is
-/// worth another E texels of slope. So on a receiver's plane an edge is off by no more than
+/// for a filter of radius E texels. The bias that keeps the receiver's plane from shadowing itself
+/// (docs/explanation/bias.md) is worth another E texels of slope. So on a receiver's plane an edge is off by no more
+/// than
 ///     (1/2 + E) m + 1 pixels.
 /// m is the longest extent of a texel on the screen, pixels. It is the longer diagonal, projected along the light's ray
 /// onto the plane and from there to the screen. The added pixel is half of one each for the true and the drawn image,

@@ -143,7 +143,7 @@ struct LightFitHistory {
 /// is drawn once and looked up in all later frames. An unchanged picture needs no rays, so that it does not count, and
 /// maps within a budget do not grow by themselves.
 inline constexpr std::uint32_t kStaticSunFrames = 30;
-/// Growth of the map's edge: twice the edge leaves a third fewer pixels to rays (docs/exact.md, "What it costs").
+/// Growth of the map's edge: twice the edge leaves a third fewer pixels to rays (docs/results/exact.md).
 inline constexpr float kStaticSunEdges = 2.0f;
 inline bool is_static(const LightFitHistory& held) { return held.rays.static_frames >= kStaticSunFrames; }
 

@@ -13,7 +13,8 @@ struct ContentSignature {
     std::uint64_t placement = 0;  // without casters
 };
 
-/// Textures of a conservative shadow map (FilterStorage::conservative_bounds) beside its depths (docs/exact.md).
+/// Textures of a conservative shadow map (FilterStorage::conservative_bounds) beside its depths
+/// (docs/explanation/exact_proof.md).
 struct BoundsMaps {
     gl::TextureHandle second{};  // depths of the second layer: the next triangles behind
     gl::TargetHandle second_target{};

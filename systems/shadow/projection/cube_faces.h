@@ -18,7 +18,8 @@ const CubeFace& cube_face(std::uint32_t face);
 
 /// Returns the rotation from the axes of a point light's cube to the world's: oblique, and the same for all lights.
 /// Buildings run along the world's axes. Texels along the same axes would displace a whole edge by the same part of a
-/// texel. The errors of oblique texels alternate along the edge, so that a filter evens them out (docs/accuracy.md).
+/// texel. The errors of oblique texels alternate along the edge, so that a filter evens them out
+/// (docs/results/accuracy.md).
 const glm::dquat& cube_turn();
 
 }  // namespace gnomon::shadow

@@ -5,7 +5,7 @@
 namespace gnomon::shadow {
 namespace {
 
-// The rounding model of docs/bias.md, "Rounding". u = 2^-24.
+// The rounding model of docs/explanation/bias.md, "Rounding". u = 2^-24.
 constexpr double kUnitRoundoff = 5.9604644775390625e-8;
 /// Orthographic depth in [0,1]: half a quantum of D32F (u/2) and the projection's own rounding (4u).
 constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;

@@ -72,9 +72,9 @@ struct CascadeTrial {
 /// is taken for equal texels in total, which is larger by the root of the count. So twice as many maps must halve the
 /// predicted error beyond the gain of their additional texels. Reason: the bound is that of the worst place, near the
 /// camera. Elsewhere texels of cascades are no smaller, and thinner casters are lost. Measured with equal texels
-/// (docs/cost.md): courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one. A valley of
-/// kilometres, where they divide it by 6 to 50, is best with two or four. The present number stays while the least
-/// product is at least 1 / sqrt(2) of its own. Rounding two sides to steps changes a product by as much.
+/// (docs/results/cost.md): courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one. A
+/// valley of kilometres, where they divide it by 6 to 50, is best with two or four. The present number stays while the
+/// least product is at least 1 / sqrt(2) of its own. Rounding two sides to steps changes a product by as much.
 std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double target_px);
 
 /// Returns true if maps with the error `predicted_px` meet the target `target_px`.

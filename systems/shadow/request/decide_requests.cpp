@@ -27,7 +27,7 @@ constexpr std::uint32_t kLeastRequested_px = 16;
 
 /// Edge of a sun's map, texels per pixel of the picture's larger side, at most kUsualSunMap_px. The camera sees edges
 /// from nearer and farther than the distance for which the texels are sized. 0.05 % of wrong pixels needs this many
-/// (docs/cost.md).
+/// (docs/results/cost.md).
 constexpr float kSunTexelsPerPixel = 1.6f;
 constexpr std::uint32_t kUsualSunMap_px = 2048;
 
@@ -101,7 +101,7 @@ ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
 
 /// Returns the texels of a map's edge per pixel of the picture's larger side. A conservative map costs time to draw and
 /// clear each layer, and saves rays. For a cube's six faces half the edge is best. For a sun's map that is drawn once
-/// (is_static) twice the edge is best (docs/exact.md, "What it costs").
+/// (is_static) twice the edge is best (docs/results/exact.md).
 float texels_per_pixel(const LightItem& light, const LightFitHistory* held, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(request.map.filter);

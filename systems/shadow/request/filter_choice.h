@@ -6,7 +6,7 @@
 /// Choice of the filter for ShadowFilter::automatic. It is kDefaultFilter, unless LightShadow::max_error_px is above 0
 /// and no map within the light's limits meets it. Then it is kExactFilter, which has no such error because it traces
 /// rays. Without max_error_px the default filter's maps suffice: rays cost one and a half to three times as much
-/// (docs/cost.md).
+/// (docs/results/cost.md).
 ///
 /// A cheaper filter is never chosen here. The bound of `hard` is that of kDefaultFilter at the same size
 /// (error_bound.h). It would meet the target wherever the default does, and edges would become stairs. Only budgets

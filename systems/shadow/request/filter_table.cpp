@@ -12,8 +12,8 @@ namespace {
 using Kernel = ShadowTuning::Kernel;
 
 std::uint32_t one(const Kernel&, bool) { return 1; }
-/// Returns the fetches of 16 bytes by an average ray through a large scene (docs/exact.md, "Quality"). There is no
-/// upper bound.
+/// Returns the fetches of 16 bytes by an average ray through a large scene (docs/explanation/exact.md, "Trees"). There
+/// is no upper bound.
 std::uint32_t of_ray(const Kernel&, bool) {
     constexpr std::uint32_t kBoxes = 55, kTriangles = 32, kPerBox = 2, kPerTriangle = 3;
     return kBoxes * kPerBox + kTriangles * kPerTriangle;

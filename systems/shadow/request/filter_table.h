@@ -62,7 +62,7 @@ struct RayRow {
 };
 
 /// Filter of a depth map. A new one needs a file in shaders/shadow/filters, an enumerator and a row
-/// (docs/adding_a_filter.md).
+/// (docs/contributors/adding_a_filter.md).
 struct FilterRow {
     ShadowFilter id;
     std::string_view name;  // as in --set filter=
@@ -78,7 +78,7 @@ struct FilterRow {
     /// Part of E that is read but cannot move a shadow's edge, texels.
     float still_texel = 0.0f;
     /// Default edge of a cascade, spot view or cube face, texels per pixel of the picture's larger side. More than 1,
-    /// because receivers lie obliquely in the map. Measured in docs/accuracy.md.
+    /// because receivers lie obliquely in the map. Measured in docs/results/accuracy.md.
     float texels_per_pixel = 1.5f;
     /// Blurred moments of distances beside the map (shaders/shadow/passes/prefilter). nullptr: none.
     const MomentRow* moments = nullptr;

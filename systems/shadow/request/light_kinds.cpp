@@ -7,7 +7,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Default number of a sun's cascades. Each about doubles the depth range of one texel size (docs/accuracy.md).
+/// Default number of a sun's cascades. Each about doubles the depth range of one texel size
+/// (docs/explanation/accuracy.md).
 constexpr std::uint32_t kCascades = 4;
 
 constexpr LightKindRow kKindRows[] = {

@@ -31,7 +31,8 @@ PrefilterDescs moments_of(const gl::TextureDesc& map, const MapSettings& setting
 /// there.
 std::uint32_t scratch_rows(const MapSettings& settings, bool cube);
 
-/// Textures of a conservative map (FilterStorage::conservative_bounds) beside its depths (docs/exact.md).
+/// Textures of a conservative map (FilterStorage::conservative_bounds) beside its depths
+/// (docs/explanation/exact_proof.md).
 /// - `triangles`: triangle of each texel, read while the second layer is drawn; one layer for all views in turn.
 /// - `second`: per view, depths of the next triangles behind.
 /// - `bounds`: per view, depth of the nearest silhouette edge, and depth slope bound.

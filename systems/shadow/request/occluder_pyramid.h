@@ -3,11 +3,11 @@
 
 #include "systems/shadow/frame/shadow_view.h"
 
-/// Occluder pyramid over a conservative shadow map, for area lights (docs/exact.md, "A source with a size"). A texel
-/// has two depths. The first is that of the occluder nearest to the light that may keep a place from full light. The
-/// second is that of the nearest surface with a possible edge, which may keep it from full shadow. Each level stores
-/// the nearest of these in squares of kEndsAcross by kEndsAcross. The texels' own depths are not stored, because they
-/// follow from the map's other textures.
+/// Occluder pyramid over a conservative shadow map, for area lights (docs/explanation/exact_proof.md, "A source with a
+/// size"). A texel has two depths. The first is that of the occluder nearest to the light that may keep a place from
+/// full light. The second is that of the nearest surface with a possible edge, which may keep it from full shadow. Each
+/// level stores the nearest of these in squares of kEndsAcross by kEndsAcross. The texels' own depths are not stored,
+/// because they follow from the map's other textures.
 namespace gnomon::shadow {
 
 /// Edge of a square, in squares of the level below. Equals kEndsAcross in

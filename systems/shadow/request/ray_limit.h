@@ -11,7 +11,7 @@
 namespace gnomon::shadow {
 
 /// Assumed share of a light's pixels that its map leaves undecided: more than in all but one of the scenes of
-/// docs/exact.md.
+/// docs/how-to/budgets.md.
 inline constexpr double kUncertainShare = 0.2;
 
 /// Returns the pixels that look the light up: the area of its screen rectangles in all pictures.

@@ -7,7 +7,7 @@ namespace gnomon::shadow {
 namespace {
 
 /// Costs of a conservative map, in rays: a caster's triangle, drawn three times and measured; a texel, cleared and
-/// written as often; one pixel's classification. Ratios of one run (docs/exact.md, "What it costs").
+/// written as often; one pixel's classification. Ratios of one run (docs/results/exact.md).
 constexpr double kTriangle_rays = 2.5, kTexel_rays = 0.1, kVerdict_rays = 0.15;
 
 /// Returns a hash of what the views of the range show after this frame.

@@ -10,7 +10,8 @@
 
 namespace gnomon::shadow {
 
-/// Bytes that take as long to copy as one triangle takes to draw (docs/economy.md, "Caching", has the measurement).
+/// Bytes that take as long to copy as one triangle takes to draw (docs/explanation/caching.md, "Caching", has the
+/// measurement).
 inline constexpr std::uint64_t kCopiedBytesPerTriangle = 256;
 
 /// Returns whether drawing these casters is more work than copying `bytes`. Counted, not timed, so that the result is

@@ -199,7 +199,7 @@ def check_failures(program):
 
 
 def check_size(source, prefix, compiler):
-    """The examples are as short, and include as little, as docs/examples.md states."""
+    """The examples are as short, and include as little, as docs/reference/examples.md states."""
     lines = (source / "examples/first_shadow.cpp").read_text(encoding="utf-8").splitlines()
     text = (source / "examples/own_ecs_forward.cpp").read_text(encoding="utf-8")
     speaking = [line for line in text.splitlines() if re.search(r"gnomon|shadows\b|mask\b|caster", line, re.IGNORECASE)]

@@ -120,7 +120,7 @@ inline bool holds(const glm::dvec3& place) {
     return place.x >= 0.0 && place.x <= 1.0 && place.y >= 0.0 && place.y <= 1.0 && place.z >= 0.0 && place.z <= 1.0;
 }
 
-/// Returns the view that serves a point, as docs/core.md lets a lookup find it; null: none.
+/// Returns the view that serves a point, as docs/how-to/other_graphics_apis.md lets a lookup find it; null: none.
 inline const View* serving(std::span<const View> views, const LightFit& fit, const Camera& camera, const glm::dvec3& p) {
     const View* best = nullptr;
     double deepest = 0.0;

@@ -1,4 +1,4 @@
-// The bias as docs/core.md shows it to authors of shaders. core_shader_bias_test.cpp compiles it as C++.
+// The bias, as docs/how-to/other_graphics_apis.md shows it. core_shader_bias_test.cpp compiles it as C++.
 // [offset]
 // texel, reach_texel, depth, depth_share: View::bias. n_map: geometric normal, p_map: position from eye_ws_m, both along
 // axis_u, axis_v, axis_back. error_m: how far the position may be off. Returns metres along the normal, depth to add.

@@ -1,5 +1,5 @@
 // Classification of a receiver as certainly lit, certainly dark or uncertain, by conservative bounds on all that its
-// texel covers (docs/exact.md). Requires the light's kind, with SHADOW_DEPTHS.
+// texel covers (docs/explanation/exact_proof.md). Requires the light's kind, with SHADOW_DEPTHS.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/map_position.glsl"
 layout(binding = kSecondDepthUnit) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles

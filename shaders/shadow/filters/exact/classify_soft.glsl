@@ -1,5 +1,5 @@
 // Classification of a receiver under a source with a size: certainly lit by all of it, certainly dark to all of it, or
-// uncertain. See docs/exact.md, "A source with a size". Requires shadow/filters/exact/classify.glsl.
+// uncertain. See docs/explanation/exact_proof.md, "A source with a size". Requires shadow/filters/exact/classify.glsl.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 #include "shadow/filters/exact/light_cone.glsl"

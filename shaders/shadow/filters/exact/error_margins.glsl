@@ -1,4 +1,4 @@
-// Margins of sheets; docs/exact.md derives them. C++ twins: systems/shadow/exact/error_margins.h.
+// Margins of sheets; docs/explanation/exact_proof.md derives them. C++ twins: systems/shadow/exact/error_margins.h.
 // SHEETS_WITHOUT_MARGINS: none of them, to show in tests that they are needed.
 #include "common/float_rounding.glsl"
 #ifdef SHEETS_WITHOUT_MARGINS

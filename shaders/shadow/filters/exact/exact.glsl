@@ -1,5 +1,5 @@
 // Shadows by the casters' triangles themselves: one ray from the receiver to the light. SHADOW_SHEETS: where the
-// light's map is not certain (docs/exact.md).
+// light's map is not certain (docs/explanation/exact.md).
 #include "shadow/filters/exact/shadow_ray.glsl"
 
 // Returns the share of the light that one ray finds. `normal`: of the surface; unused.

@@ -1,5 +1,5 @@
 // Shadows of a source with a size: the share of it that is seen, by light.filtering.y rays. SHADOW_SHEETS: where the
-// light's map is not certain that it is seen whole or not at all (docs/exact.md, "A source with a size").
+// light's map is not certain that it is seen whole or not at all (docs/explanation/exact_proof.md).
 #include "shadow/filters/exact/shadow_ray.glsl"
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"

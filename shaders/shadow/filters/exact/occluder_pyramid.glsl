@@ -1,4 +1,4 @@
-// Nearest depths that a texel holds for a source with a size (docs/exact.md, "A source with a size"). C++ twin of
+// Nearest depths that a texel holds for a source with a size (docs/explanation/exact_proof.md). C++ twin of
 // levels: systems/shadow/request/occluder_pyramid.h.
 #include "shadow/filters/exact/error_margins.glsl"
 const int kEndsAcross = 4;   // squares of a level along a side of a square of the next

@@ -3,7 +3,7 @@
 
 // Width of the votes: a bar as wide as a texel just holds half of them, 2 Phi(1 / (2 sigma)) - 1 = 1/2, and is kept.
 const float kVotes_texel = 0.7413;
-// Share of a curved mesh's bend between texels that counts for the receiver, by measurement (docs/accuracy.md).
+// Share of a curved mesh's bend between texels that counts for the receiver, by measurement (docs/results/accuracy.md).
 const float kBendShare = 0.25;
 // Most slopes that a bend adds: no more than a nearest tap would have allowed for the slope.
 const float kMostSlope_texel = 0.5;

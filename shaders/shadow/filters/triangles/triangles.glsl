@@ -6,8 +6,8 @@
 
 // Distance from the receiver's plane, in slopes per texel, up to which a texel shows the receiver's own surface: a
 // curved mesh bends. What lies farther below the plane, but above the receiver, is another surface. Within part of a
-// texel it lies behind a plane that the light grazes. The value is measured (docs/filters.md). A tenth doubles the
-// errors of Sponza. With less than 0.05, its cloth takes as much time again as walks over folds do.
+// texel it lies behind a plane that the light grazes. The value is measured (docs/explanation/filters.md). A tenth
+// doubles the errors of Sponza. With less than 0.05, its cloth takes as much time again as walks over folds do.
 const float kOwnSurface_texel = 0.05;
 
 // Returns which of the four may show what darkens the receiver.

@@ -1,5 +1,5 @@
 // Smallest offset that keeps a plane from shadowing itself, in closed form, per projection. Derivation and sources:
-// docs/bias.md. Depth is reversed: an offset toward the light adds.
+// docs/explanation/bias.md. Depth is reversed: an offset toward the light adds.
 #include "common/float_rounding.glsl"
 
 // Slope above which the offset moves the receiver along its normal instead of along the light: bounded where the

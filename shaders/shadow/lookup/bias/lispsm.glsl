@@ -1,6 +1,6 @@
 // Smallest offset that keeps a plane from shadowing itself in an orthographic map that is warped across the light.
 // Depth is h / (range * w): h metres toward the light from the anchor, w = 1 + dot(gradient, position). Derivation:
-// docs/bias.md.
+// docs/explanation/bias.md.
 
 // Error of a row of the map's matrix, relative: its entries, products and sums.
 const float kRowRounding = 4.0 * kUnitRoundoff;

@@ -1,5 +1,6 @@
 // Offsets that a user chooses instead of the automatic one, to compare with it. One function per mode of BiasMode
-// (include/gnomon/shadow_tuning.h), and a line in manual_bias(). docs/bias.md explains each, with its source.
+// (include/gnomon/shadow_tuning.h), and a line in manual_bias(). docs/explanation/bias.md explains each, with its
+// source.
 const int kConstantBias = 1;
 const int kSlopeBias = 2;
 const int kNormalOffsetBias = 3;

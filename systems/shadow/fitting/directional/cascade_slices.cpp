@@ -104,7 +104,8 @@ bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const D
 
 /// Returns the tuning with logarithmic splits where the number of cascades is the system's to choose. It chooses more
 /// than one only where depths lie far apart. Uniform splits, however small their share, then leave too few texels to
-/// what is near. In a valley of kilometres 4.6 % of the pixels are wrong with them, 0.8 % without (docs/cost.md).
+/// what is near. In a valley of kilometres 4.6 % of the pixels are wrong with them, 0.8 % without
+/// (docs/results/cost.md).
 ShadowTuning::Cascades with_ends_for_count(ShadowTuning::Cascades tuning, const ShadowRequest& request) {
     if (request.limits.max_views > 0 && tuning.splits == CascadeSplits::practical) tuning.split_lambda = 1.0f;
     return tuning;

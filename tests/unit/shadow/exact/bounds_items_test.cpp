@@ -321,7 +321,7 @@ TEST(SheetMargins, AreTheSameInShaders) {
     EXPECT_EQ(in_shaders("kFloorTangent"), shadow::kFloorTangent);
     EXPECT_EQ(in_shaders("kEndsAcross", "shadow/filters/exact/occluder_pyramid.glsl"), shadow::kEndsAcross);
     EXPECT_EQ(in_shaders("kMostStretch", "shadow/filters/exact/light_cone.glsl"), shadow::kMostStretch);
-    // As docs/exact.md adds them up.
+    // As docs/explanation/exact_proof.md adds them up.
     EXPECT_GE(in_shaders("kTexelHalf"), 0.508 + 1.0 / 256.0);
     EXPECT_GE(shadow::kDepartureFactor, (0.508 + 1.0 / 256.0 + shadow::kMostMoved_texel) / 0.5 + 0.004);
 }

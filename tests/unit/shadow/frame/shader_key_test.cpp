@@ -23,7 +23,7 @@ using ::testing::Contains;
 using ::testing::IsEmpty;
 using Names = std::set<std::string>;
 
-constexpr const char* kGuide = "docs/stages.md";
+constexpr const char* kGuide = "docs/contributors/stages.md";
 
 std::string text_of(const std::filesystem::path& path) {
     std::ifstream file(path);
