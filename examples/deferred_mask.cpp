@@ -262,12 +262,14 @@ int main(int argc, char** argv) {
         }
 
         // Shadows of all lights, by the surfaces' own depths and normals.
+        // [mask]
         const gnomon::Mask mask = shadows.render({.world_from_view = glm::inverse(view_from_world),
                                                   .clip_from_view = clip_from_view,
                                                   .clip_depth = gnomon::ClipDepth::zero_to_one,
                                                   .depth_texture = surfaces.depth,
                                                   .size_px = size_px,
                                                   .normal_texture = surfaces.normals});
+        // [mask]
         if (!mask.failure.empty()) return fail({.message = "no mask", .rule = std::string(mask.failure)});
 
         // Lighting.

@@ -224,7 +224,9 @@ int main(int argc, char** argv) {
                              .depth_texture = half.depth,
                              .size_px = half.size_px};
         }
+        // [masks]
         const std::span<const gnomon::Mask> masks = shadows.render(views);
+        // [masks]
         glDepthFunc(GL_EQUAL);
         for (int player = 0; player < kPlayers; ++player) {
             const Half& half = halves[player];

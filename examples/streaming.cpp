@@ -148,11 +148,13 @@ gnomon::Result<Cell> load(gnomon::Shadows& shadows, Key key) {
     glVertexArrayAttribFormat(cell.array, 0, 3, GL_FLOAT, GL_FALSE, 0);
     glVertexArrayAttribBinding(cell.array, 0, 0);
 
+    // [load]
     const auto mesh = shadows.add_mesh({.name = "cell", .positions_m = positions, .indices = indices});
     if (!mesh) return mesh.error();
     cell.mesh = mesh.value();
     cell.caster =
         shadows.add_caster({.mesh = cell.mesh, .world_from_mesh = glm::translate(glm::dmat4(1.0), cell.corner_m)});
+    // [load]
     if (key.first % 3 == 0 && key.second % 3 == 0) {
         cell.lamp_m = cell.corner_m + glm::dvec3(0.5 * kCell_m, 5.0, 0.5 * kCell_m);
         cell.lamp = shadows.add_light(
@@ -163,9 +165,11 @@ gnomon::Result<Cell> load(gnomon::Shadows& shadows, Key key) {
 
 // Unloads a cell from both.
 void unload(gnomon::Shadows& shadows, const Cell& cell) {
+    // [unload]
     shadows.remove(cell.caster);
     shadows.remove(cell.mesh);
     if (cell.lamp) shadows.remove(cell.lamp);
+    // [unload]
     glDeleteVertexArrays(1, &cell.array);
     glDeleteBuffers(1, &cell.buffer);
 }
