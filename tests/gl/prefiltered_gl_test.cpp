@@ -81,7 +81,7 @@ protected:
 
 TEST_F(PrefilteredCube, IsBlurredAcrossSeamsAsOverTheSphere) {
     const auto faces = blurred_faces(kBlur_texel);
-    // Stated in docs/explanation/filters.md: what a face's plane makes of a round blur, most at the corners; plus half
+    // Stated in docs/explanation/prefiltered_maps.md: what a face's plane makes of a round blur, most at the corners; plus half
     // a texel of the neighbour's grid.
     constexpr double kTolerance = 0.12;
     double worst_inside = 0.0, worst_seam = 0.0;

@@ -65,7 +65,7 @@ TEST_F(SoftShadows, OfOneEdgeAreAsWideAsTheSourceMakesThemFromEveryHeight) {
         }
 }
 
-// docs/explanation/filters.md states these.
+// docs/explanation/prefiltered_maps.md states these.
 TEST_F(SoftShadows, PrefilteredOfOneEdgeAreAboutAsWideAsTheSourceMakesThem) {
     constexpr double kMostOff = 0.15, kMostLost = 0.06, kMostError = 0.035;
     for (const LightKind kind : kKinds)

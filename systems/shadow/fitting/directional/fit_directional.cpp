@@ -76,7 +76,7 @@ void place(const CascadeInput& input, const glm::dvec3& centre_ws, const glm::dv
 namespace {
 
 /// Room before the receiver nearest to the light, in depth ranges, for filters that weigh distances. A caster flattened
-/// onto that receiver would be lost. 16 bits resolve this gap (docs/explanation/filters.md, "Prefiltered maps").
+/// onto that receiver would be lost. 16 bits resolve this gap (docs/explanation/prefiltered_maps.md).
 constexpr double kRoomForCasters = 0.5;
 
 /// Replaces the depth range by the request's, counted from the sun's eye.

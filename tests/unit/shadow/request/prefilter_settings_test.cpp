@@ -232,7 +232,7 @@ float worst_bleeding(const Store& store, double first, double second, double rec
     return worst;
 }
 
-// docs/explanation/filters.md states these.
+// docs/explanation/prefiltered_maps.md states these.
 TEST(Moments, OfTwoCastersBleedNoMoreThanStated) {
     const double first = 0.1, second = 0.6, receiver = 0.85;
     const double x = second - first, y = receiver - second;
