@@ -7,7 +7,7 @@
 namespace gnomon::shadow {
 
 /// Chooses how `faces` faces of one light are drawn in this frame. A single face is always a pass of its own, as are
-/// faces that the device cannot layer. docs/explanation/fits.md, "A point light", has the figures behind `automatic`.
+/// faces that the device cannot layer. docs/contributors/experiments.md has the figures behind `automatic`.
 inline CubeRoute cube_route(CubeRoute wish, const gl::DeviceInfo& device, std::uint32_t faces) {
     if (faces < 2 || wish == CubeRoute::automatic) return CubeRoute::six_passes;
     if (wish == CubeRoute::layered_vertex && !device.vertex_layer) return CubeRoute::six_passes;
