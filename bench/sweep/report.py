@@ -196,7 +196,7 @@ def markdown(scene):
     data = scene.data
     text = "## %s\n\nDevice: %s. Picture: %d × %d. Rows: %d, rounds of times: %d.\n\n" % (
         data["scene"], data["device"], *data["size_px"], len(scene.rows), data["rounds"])
-    text += "### What halving the error costs\n\n" + "".join(line + "\n\n" for line in sentences(scene))
+    text += "### What halving the error costs\n\n" + markdown_table(["light and error"], [[line] for line in sentences(scene)])
     for light in scene.lights:
         for truth in TRUTHS:
             rows = halving_rows(scene, light, truth)
