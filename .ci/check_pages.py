@@ -153,6 +153,7 @@ def wrong_command(command, programs):
     except ValueError as error:
         return str(error)
     words = [word.strip("[]") for word in words]
+    words = [part for word in words for part in (word.split("|") if FLAG.match(word) else [word])]
     for end in ("&&", "|", ";", ">"):
         words = words[:words.index(end)] if end in words else words
     program = match["program"].rsplit("/", 1)[-1]
