@@ -66,28 +66,29 @@ constexpr const char* kTask = "Cross the courtyard to the gate unseen: keep out 
 
 /// Draws what to do, and the keys: of all that look at shadows, and of the game.
 void draw_first_screen(ImDrawList& list, glm::vec2 size_px) {
-    constexpr float kLine = 1.25f, kKeyColumn = 0.16f, kTop = 0.08f;
-    constexpr float kLeastFont_px = 9.0f, kMostFont_px = 20.0f, kLinesInPicture = 30.0f;
+    constexpr float kLine = 1.25f, kGap = 1.5f, kTop = 0.06f;  // in letters; share of the picture's height
+    constexpr float kLeastFont_px = 8.0f, kMostFont_px = 18.0f, kLinesInPicture = 36.0f;
     ImFont* font = ImGui::GetFont();
     const float font_px = std::clamp(size_px.y / kLinesInPicture, kLeastFont_px, kMostFont_px);
     const auto width_of = [&](const char* text) { return font->CalcTextSizeA(font_px, size_px.x, 0.0f, text).x; };
-    float wide = width_of(kTask);
-    int rows = 0;
+    float keys_px = 0.0f, words_px = 0.0f, rows = 0.0f;
     for (const KeyRow& row : key_table()) {
         if (row.place == KeyPlace::scene) continue;
-        wide = std::max(wide, kKeyColumn * wide + width_of(row.meaning));
+        keys_px = std::max(keys_px, width_of(row.keys) + kGap * font_px);
+        words_px = std::max(words_px, width_of(row.meaning));
         ++rows;
     }
-    const float left = std::max(0.5f * (size_px.x - wide), font_px), line_px = kLine * font_px;
+    const float wide = std::max(width_of(kTask), keys_px + words_px), line_px = kLine * font_px;
+    const float left = std::max(0.5f * (size_px.x - wide), font_px);
     float y = kTop * size_px.y;
     list.AddRectFilled({left - font_px, y - 0.5f * font_px},
-                       {left + wide + font_px, y + (static_cast<float>(rows) + 2.0f) * line_px}, kBack);
+                       {left + wide + font_px, y + (rows + kGap) * line_px + 0.5f * font_px}, kBack);
     list.AddText(font, font_px, {left, y}, kLight, kTask);
-    y += 1.5f * line_px;
+    y += kGap * line_px;
     for (const KeyRow& row : key_table()) {
         if (row.place == KeyPlace::scene) continue;
         list.AddText(font, font_px, {left, y}, kLight, row.keys);
-        list.AddText(font, font_px, {left + kKeyColumn * wide, y}, kFrame, row.meaning);
+        list.AddText(font, font_px, {left + keys_px, y}, kFrame, row.meaning);
         y += line_px;
     }
 }
