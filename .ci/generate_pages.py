@@ -9,7 +9,8 @@ usage: generate_pages.py --bin FOLDER           writes every generated block, an
 FOLDER has gnomon_tables, gnomon_game and gnomon_bench.
 
 A generated block stands between <!-- generated: NAME --> and <!-- /generated -->. A measured one, which only its command can
-remake, stands between <!-- NAME --> and <!-- end of NAME -->, and begins with a stamp: command, device and commit.
+remake, stands between <!-- NAME --> and <!-- end of NAME -->, and begins with a stamp: command, device and commit. A table
+with rows `command`, `device` and `commit` states the same of figures that were taken over by hand.
 A figure, <!-- figure: NAME -->text<!-- /figure -->, is filled if docs/pictures/figures.json has its name.
 """
 import json
@@ -33,6 +34,8 @@ MEASURED = re.compile(r"(?P<begin>^<!-- (?P<name>[\w ]+) -->\n)(?P<text>.*?)(?P<
                       re.MULTILINE | re.DOTALL)
 STAMP = re.compile(r"<sub>Made by <code>(?P<command>[^\n]*?)</code> on (?P<device>[^\n]*?), commit (?P<commit>[0-9a-f]{7,40})"
                    r"(?P<dirty>, changed)?\.</sub>\n\n?")
+ORIGIN = re.compile(r"^\| *\| *\|\n\|-+\|-+\|\n(?P<rows>(?:\|[^\n]*\|\n)+)", re.MULTILINE)
+ORIGIN_ROW = re.compile(r"^\| *(?P<name>command|device|commit) *\| *(?P<value>.*?) *\|$", re.MULTILINE)
 FIGURES = Path("docs/pictures/figures.json")
 # Measured blocks: what their figures depend on, beside the command that makes them.
 SHADOWS = ("systems", "shaders", "engine")
@@ -48,6 +51,9 @@ DEPENDS = {
     "redraws": (*SHADOWS, "bench/scaling"),
     "strip": (*SHADOWS, "bench/pictures"),
 }
+# Folders of the bench's commands, beside those of the same name.
+FOLDER_OF = {"filters": "compare", "demand": "scaling", "redraws": "scaling", "budget": "cost_model", "sets": "culling",
+             "stability": "flicker", "drawings": "fit_drawings"}
 
 
 # --- tables -----------------------------------------------------------------------------------------------------------
@@ -253,19 +259,63 @@ def stamped(text, line):
     return MEASURED.sub(put, text)
 
 
+def changes_since(root, commit, paths):
+    """Number of commits that changed the paths since; None: there is no such commit in this history."""
+    if not git(root, "cat-file", "-t", commit) == "commit":
+        return None
+    return len(git(root, "log", "--oneline", "%s..HEAD" % commit, "--", *paths).splitlines())
+
+
+def age_words(root, name, what, commit, paths, command):
+    """A line if what a page shows is older than what it depends on, and one if its commit is unknown."""
+    count = changes_since(root, commit, paths)
+    if count is None:
+        return [], ["%s: %s is of the commit %s, which is unknown here" % (name, what, commit)]
+    return [] if count == 0 else ["older: %s: %s is of %s; %d commits changed what it depends on since. Again: %s" % (
+        name, what, commit, count, command)], []
+
+
+def origins(text):
+    """Yields (line, rows by name) of each table that states where figures come from."""
+    for match in ORIGIN.finditer(text):
+        rows = {row["name"]: row["value"].strip("`") for row in ORIGIN_ROW.finditer(match["rows"])}
+        if "commit" in rows or "command" in rows:
+            yield pages.line_of(text, match.start()), rows
+
+
+def paths_of(command):
+    """What the figures of a command depend on."""
+    word = re.search(r"(?:bench|gnomon_bench) ([a-z]+)", command)
+    return SHADOWS if not word else (*SHADOWS, "bench/" + FOLDER_OF.get(word[1], word[1]))
+
+
 def ages(root, name, text):
-    """Lines about measured blocks: those without a stamp, and those older than what they depend on."""
+    """Lines about measured blocks and tables: those without a stamp, and those older than what they depend on."""
     missing, old = [], []
+    for line, rows in origins(text):
+        lacking = [part for part in ("command", "device", "commit") if part not in rows]
+        if lacking:
+            missing.append("%s:%d: the figures have no %s" % (name, line, " and no ".join(lacking)))
+        elif re.fullmatch(r"[0-9a-f]{7,40}", rows["commit"]):
+            older, unknown = age_words(root, name, "line %d" % line, rows["commit"], paths_of(rows["command"]), rows["command"])
+            old += older
+            missing += unknown
+        else:
+            missing.append("%s:%d: '%s' is no commit" % (name, line, rows["commit"]))
     for match in measured_blocks(text):
         stamp = STAMP.match(match["text"])
         if not stamp:
             missing.append("%s: the measured block '%s' has no stamp" % (name, match["name"]))
             continue
-        changes = git(root, "log", "--oneline", "%s..HEAD" % stamp["commit"], "--", *DEPENDS[match["name"]]).splitlines()
-        if changes:
-            old.append("older: %s: '%s' is of %s; %d commits changed what it depends on since. Again: %s" % (
-                name, match["name"], stamp["commit"], len(changes), unescape(stamp["command"])))
-    return missing, old
+        older, unknown = age_words(root, name, "'%s'" % match["name"], stamp["commit"], DEPENDS[match["name"]],
+                                   unescape(stamp["command"]))
+        old += older
+        missing += unknown
+    return missing if is_whole_history(root) else [line for line in missing if "is unknown here" not in line], old
+
+
+def is_whole_history(root):
+    return git(root, "rev-parse", "--is-shallow-repository") == "false"
 
 
 def old_command(text, match):
@@ -320,6 +370,7 @@ class SmallFacts:
 
 GOOD = "x\n\n<!-- generated: keys -->\n\n|a|\n|---|\n|b|\n\n<!-- /generated -->\n\nIt is <!-- figure: f -->1 %<!-- /figure -->.\n\n" \
        "<!-- cost -->\n<sub>Made by <code>./gnomon bench x</code> on d, commit 0123456.</sub>\n\n|1|\n<!-- end of cost -->\n"
+TABLE = "| | |\n|---|---|\n| %s | `./gnomon bench frame --rounds 2` |\n| device | d |\n| commit | %s |\n"
 SPOILT = (("|b|", "|c|"), ("generated: keys", "generated: key"), ("<!-- /generated -->", ""), (">1 %<", ">2 %<"),
           (", commit 0123456", ""), ("<sub>Made by", "<sub>Maid by"))
 
@@ -343,10 +394,14 @@ def self_test():
                        "echo 1 > systems/a && git add -A && git -c user.name=a -c user.email=b commit -qm b", shell=True,
                        cwd=root, check=True)
         for ref, older in (("HEAD", 0), ("HEAD~1", 1)):
-            text = GOOD.replace("0123456", git(root, "rev-parse", "--short=8", ref))
-            if [len(lines) for lines in ages(root, "page", text)] != [0, older]:
-                missed.append("the age of %s" % ref)
-    print(*missed, "%d spoilt, %d not found" % (len(SPOILT) + 3, len(missed)), sep="\n")
+            commit = git(root, "rev-parse", "--short=8", ref)
+            for text in (GOOD.replace("0123456", commit), TABLE % ("command", commit)):
+                if [len(lines) for lines in ages(root, "page", text)] != [0, older]:
+                    missed.append("the age of %s in %s" % (ref, text))
+        for text in (GOOD, TABLE % ("command", "0123456"), TABLE % ("command", "yesterday"), TABLE % ("words", "0123456")):
+            if len(ages(root, "page", text)[0]) != 1:
+                missed.append("an origin that is none: %s" % text)
+    print(*missed, "%d spoilt, %d not found" % (len(SPOILT) + 9, len(missed)), sep="\n")
     return 1 if missed else 0
 
 
