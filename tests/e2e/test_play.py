@@ -6,7 +6,7 @@ from depth_view import TITLE, Region, background, grey, nothing
 from game import SMALL, TIMEOUT_S, Picture
 from window import H, W, WindowTest, main_in_display
 
-GREEN, RED = (120, 220, 120), (225, 60, 40)  # the words at the end of a game that was won, or lost
+GREEN, RED, WORDS = (120, 220, 120), (225, 60, 40), (255, 214, 110)  # the words at the end of a game that was won, or lost
 
 
 def share_of(picture, colour):
@@ -37,6 +37,15 @@ class Play(WindowTest):
         self.assertLess(end["seen"], 0.5)
         self.assertGreater(share_of(after, GREEN), 0.002)
         self.assertLess(share_of(during, GREEN), 0.001)
+
+    def test_the_first_screen_names_the_keys_and_goes(self):
+        def words(picture):
+            """Share of the upper half in the colour of the task and of the keys' names."""
+            half = picture.rgba[:len(picture.rgba) // 2]
+            near = sum(max(abs(a - b) for a, b in zip(p, WORDS)) < 40 for p in zip(half[0::4], half[1::4], half[2::4]))
+            return near / float(len(half) // 4)
+        self.assertGreater(words(self.demo("begins", 2.0)[0]), 0.003)
+        self.assertLess(words(self.demo("goes_on", 12.0)[0]), 0.001)
 
     def test_the_demo_takes_no_other_scene(self):
         self.assert_refused("--demo", "--headless", "--camera", "top", mentions="--demo")
