@@ -21,14 +21,12 @@ foreach(line IN LISTS suites)
   string(REGEX REPLACE "^\n?([A-Za-z0-9_/]+)\\..*" "\\1" suite "${line}")
   string(REPLACE "/" "." test "${executable}.${suite}")
   set(labels ${LABEL})
-  set(cost 0)
   if(test IN_LIST long_suites)
     list(APPEND labels long)
-    set(cost 1)  # starts before the others, so that no core waits for it at the end
   endif()
   string(APPEND tests
     "add_test([=[${test}]=] [=[${EXECUTABLE}]=] \"--gtest_filter=${suite}.*\")\n"
-    "set_tests_properties([=[${test}]=] PROPERTIES LABELS \"${labels}\" TIMEOUT ${TIMEOUT} COST ${cost}\n"
+    "set_tests_properties([=[${test}]=] PROPERTIES LABELS \"${labels}\" TIMEOUT ${TIMEOUT}\n"
     "  ENVIRONMENT [=[GTEST_OUTPUT=xml:${RESULTS}/${test}.xml]=])\n")
 endforeach()
 file(WRITE ${OUT} "${tests}")
