@@ -13,7 +13,7 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr glm::uvec2 kPart_px{300, 200};
+constexpr glm::uvec2 kPart_px{288, 192};
 constexpr std::uint32_t kGap_px = 4;
 constexpr double kPercent = 100.0;
 using Rgb = std::array<std::uint8_t, 3>;
@@ -117,8 +117,8 @@ std::optional<Error> write_strip(const Strip& strip, const std::filesystem::path
 }
 
 std::string strip_table(const Strip& strip) {
-    std::string text = "| wrong pixels of | ";
-    for (const StripColumn& column : strip.columns) text += column.name + " | ";
+    std::string text = "| wrong pixels of |";
+    for (const StripColumn& column : strip.columns) text += " " + column.name + " |";
     text += "\n|---|";
     for (std::size_t i = 0; i < strip.columns.size(); ++i) text += "---|";
     text += "\n";
