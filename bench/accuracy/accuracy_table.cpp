@@ -28,17 +28,17 @@ void append_errors(const LightAccuracy& light, std::string& text) {
 void append_edges(const LightAccuracy& light, std::string& text) {
     if (is_left_out(light.report)) return;
     const oracle::Metrics& m = light.metrics;
-    text += formatted("%-18.18s %6.2f %6.2f %6.2f %5zu %7.2f %6zu %10llu %7.1f", light.report.name.c_str(),
+    text += formatted("%-16.16s %6.2f %6.2f %6.2f %5zu %7.2f %6zu %9llu %6.1f", light.report.name.c_str(),
                       m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, light.report.predicted_error_px,
                       m.coverage_mismatch, static_cast<unsigned long long>(light.report.counts.texels),
                       static_cast<double>(light.report.counts.bytes) / kBytesPerMb);
     if (light.gpu_us.count == 0)
-        text += formatted(" %21s", "not measured");
+        text += formatted(" %19s", "not measured");
     else
-        text += formatted(" %7.2f (%5.2f-%5.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
+        text += formatted(" %6.2f (%.2f-%.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
                           light.gpu_us.max / kUsPerMs);
-    text += formatted("  %s%s%s\n", to_text(light.report.state), light.report.reason == Reason::none ? "" : ": ",
-                      light.report.reason == Reason::none ? "" : reason_code(light.report.reason));
+    const bool as_requested = light.report.reason == Reason::none;
+    text += formatted("  %s\n", as_requested ? to_text(light.report.state) : reason_code(light.report.reason));
 }
 
 void append_soft(const Accuracy& accuracy, std::string& text) {
@@ -87,7 +87,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
                       "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr", "ambig", "uncov");
     for (const LightAccuracy& light : accuracy.lights) append_errors(light, text);
     for (const std::string& name : accuracy.unshadowed) text += formatted("%-18.18s has no shadow\n", name.c_str());
-    text += formatted("\n%-18s %6s %6s %6s %5s %7s %6s %10s %7s %21s  %s\n", "edges and cost", "mean", "p95", "max",
+    text += formatted("\n%-16s %6s %6s %6s %5s %7s %6s %9s %6s %19s  %s\n", "edges and cost", "mean", "p95", "max",
                       "lost", "at most", "cover", "texels", "MB", "ms (least-most)", "state");
     for (const LightAccuracy& light : accuracy.lights) append_edges(light, text);
     append_soft(accuracy, text);

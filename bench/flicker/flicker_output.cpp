@@ -17,9 +17,10 @@ constexpr const char* kColours[] = {"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad", 
 unsigned long long wide(std::uint64_t count) { return count; }
 
 std::string flips_of(const PathFlicker& r) {
-    return formatted("%-5s %-10.10s %-14.14s %-11.11s %7u %10.5f %8llu %8llu %6llu %s\n", r.path.c_str(), r.fit.c_str(),
-                     r.light.c_str(), r.kind.c_str(), r.points, r.flips_per_point_per_100_frames(), wide(r.flips),
-                     wide(r.flips_between_steps), wide(r.edge_flips), r.reason.c_str());
+    return formatted("%-5s %-10.10s %-14.14s %-11.11s %7u %10.5f %8llu %8llu %6llu%s%s\n", r.path.c_str(),
+                     r.fit.c_str(), r.light.c_str(), r.kind.c_str(), r.points, r.flips_per_point_per_100_frames(),
+                     wide(r.flips), wide(r.flips_between_steps), wide(r.edge_flips), r.reason.empty() ? "" : " ",
+                     r.reason.c_str());
 }
 
 std::string views_of(const PathFlicker& r) {

@@ -123,15 +123,15 @@ std::string frames_against_table(const FramesAgainst& times) {
     for (const FramesAgainst::Held& held : times.held) {
         char line[kLineLength];
         const TimedFrames& own = held.own.frames;
-        std::snprintf(
-            line, sizeof line,
-            "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f); views drawn %u against %u, %.1f MB against %.1f\n"
-            "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f)\n",
-            held.words, own.us.median / kUsPerMs, held.other.frames.us.median / kUsPerMs, own.ratio.median,
-            own.ratio.min, own.ratio.max, held.own.views_drawn, held.other.views_drawn,
-            static_cast<double>(held.own.bytes) / kBytesPerMb, static_cast<double>(held.other.bytes) / kBytesPerMb,
-            "  processor", own.cpu_us.median / kUsPerMs, held.other.frames.cpu_us.median / kUsPerMs,
-            own.cpu_ratio.median, own.cpu_ratio.min, own.cpu_ratio.max);
+        std::snprintf(line, sizeof line,
+                      "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f); views drawn %u : %u, MB %.1f : %.1f\n"
+                      "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f)\n",
+                      held.words, own.us.median / kUsPerMs, held.other.frames.us.median / kUsPerMs, own.ratio.median,
+                      own.ratio.min, own.ratio.max, held.own.views_drawn, held.other.views_drawn,
+                      static_cast<double>(held.own.bytes) / kBytesPerMb,
+                      static_cast<double>(held.other.bytes) / kBytesPerMb, "  processor", own.cpu_us.median / kUsPerMs,
+                      held.other.frames.cpu_us.median / kUsPerMs, own.cpu_ratio.median, own.cpu_ratio.min,
+                      own.cpu_ratio.max);
         text += line;
     }
     return text + "\nWhat the columns mean: bench frame --help\n";

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "bench/scaling/light_count.h"
@@ -23,26 +24,26 @@ std::string number(double value, const char* format) {
 
 std::string pair_of(std::uint32_t on, std::uint32_t off) { return std::to_string(on) + " / " + std::to_string(off); }
 
-std::string line_of(const DemandRow& row, DemandMotion motion) {
-    const DemandFigures &none = row.of(motion, DemandMode::without), &on = row.of(motion, DemandMode::economy),
-                        &off = row.of(motion, DemandMode::redrawn);
-    const std::string cells[] = {std::to_string(row.lights),
-                                 std::to_string(row.shadowed),
-                                 std::to_string(on.lights_given),
-                                 std::to_string(on.views),
-                                 pair_of(on.views_drawn, off.views_drawn),
-                                 pair_of(on.draws, off.draws),
-                                 number(static_cast<double>(on.bytes) / kBytesPerMiB, "%.1f"),
-                                 milliseconds(none.shadow_cpu_us),
-                                 milliseconds(on.shadow_cpu_us),
-                                 milliseconds(off.shadow_cpu_us),
-                                 milliseconds(none.frame_us),
-                                 milliseconds(on.frame_us),
-                                 milliseconds(off.frame_us),
-                                 number(on.frame_ratio, "%.2f") + " / " + number(off.frame_ratio, "%.2f")};
+std::string table_line(std::initializer_list<std::string> cells) {
     std::string text = "|";
     for (const std::string& cell : cells) text += " " + cell + " |";
     return text + "\n";
+}
+
+std::string counts_of(const DemandRow& row, DemandMotion motion) {
+    const DemandFigures &on = row.of(motion, DemandMode::economy), &off = row.of(motion, DemandMode::redrawn);
+    return table_line({std::to_string(row.lights), std::to_string(row.shadowed), std::to_string(on.lights_given),
+                       std::to_string(on.views), pair_of(on.views_drawn, off.views_drawn), pair_of(on.draws, off.draws),
+                       number(static_cast<double>(on.bytes) / kBytesPerMiB, "%.1f")});
+}
+
+std::string times_of(const DemandRow& row, DemandMotion motion) {
+    const DemandFigures &none = row.of(motion, DemandMode::without), &on = row.of(motion, DemandMode::economy),
+                        &off = row.of(motion, DemandMode::redrawn);
+    return table_line({std::to_string(row.lights), milliseconds(none.shadow_cpu_us), milliseconds(on.shadow_cpu_us),
+                       milliseconds(off.shadow_cpu_us), milliseconds(none.frame_us), milliseconds(on.frame_us),
+                       milliseconds(off.frame_us),
+                       number(on.frame_ratio, "%.2f") + " / " + number(off.frame_ratio, "%.2f")});
 }
 
 nlohmann::ordered_json to_json(const Spread& s) {
@@ -70,11 +71,13 @@ std::string demand_markdown(const Demand& demand) {
     for (const DemandMotion motion : kDemandMotions) {
         text += "\n### " + std::string(to_text(motion)) + "\n\n";
         text +=
-            "| lights | shadowed | with views | views | drawn on / off | draws on / off | MiB | stages, ms: none | on "
-            "| "
-            "off | frame, ms: none | on | off | × none: on / off |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-        for (const DemandRow& row : demand.rows) text += line_of(row, motion);
+            "| lights | shadowed | with views | views | drawn on / off | draws on / off | MiB |\n"
+            "|---|---|---|---|---|---|---|\n";
+        for (const DemandRow& row : demand.rows) text += counts_of(row, motion);
+        text +=
+            "\n| lights | stages, ms: none | on | off | frame, ms: none | on | off | × none: on / off |\n"
+            "|---|---|---|---|---|---|---|---|\n";
+        for (const DemandRow& row : demand.rows) text += times_of(row, motion);
     }
     text += "\n### programs\n\n| lights | without shadows | with |\n|---|---|---|\n";
     for (const DemandRow& row : demand.rows)

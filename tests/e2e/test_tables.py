@@ -29,7 +29,9 @@ class Tables(unittest.TestCase):
     def call(self, *arguments):
         done = subprocess.run([self.bench, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT_S,
                               check=False)
-        self.assertEqual(done.returncode, 0, "%s\n%s" % (arguments, done.stderr.decode(errors="replace")))
+        # An audit of so few pixels may find its bounds broken (1), which is printed as well.
+        self.assertIn(done.returncode, (0, 1) if arguments[0] == "audit" else (0,),
+                      "%s\n%s" % (arguments, done.stderr.decode(errors="replace")))
         return done.stdout.decode()
 
     def test_each_print_fits_and_has_no_legend_below_it(self):
