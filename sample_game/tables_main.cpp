@@ -2,13 +2,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "gnomon/frame.h"
 #include "gnomon/reason.h"
 #include "sample_game/gui/keys.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/presets.h"
 #include "sample_game/support/settings/reason_rows.h"
 #include "sample_game/support/settings/setting_uses.h"
-#include "systems/debug/debug_view.h"
 #include "systems/shadow/request/filter_table.h"
 
 /// Prints the program's own tables as JSON: .ci/generate_pages.py fills pages with them.
@@ -88,8 +88,7 @@ Json reasons_json() {
 Json views_json() {
     Json rows = Json::array();
     for (const debug::ViewRow& row : debug::view_table())
-        rows.push_back(
-            {{"name", row.name}, {"of_all", row.scope == debug::ViewScope::one_or_all}, {"meaning", row.meaning}});
+        rows.push_back({{"name", row.name}, {"of_all", !row.needs_light}, {"meaning", row.meaning}});
     return rows;
 }
 

@@ -12,12 +12,12 @@ namespace gnomon {
 
 struct Frame::State {
     State(std::unique_ptr<gl::Device> gl_device, std::unique_ptr<FrameSystem> frame_system,
-          const assets::MeshLibrary& library, bool timed)
+          const assets::MeshLibrary& library)
         : device(std::move(gl_device)),
+          info{device->info().name, device->info().max_texture_px},
           system(std::move(frame_system)),
           trees(library),
-          queries(trees),
-          time_gpu(timed) {}
+          queries(trees) {}
 
     /// Returns the light's index in the last frame; their number if it is none.
     std::size_t index_of(ecs::Entity light) const {
@@ -26,8 +26,10 @@ struct Frame::State {
         return static_cast<std::size_t>(std::find_if(lights.begin(), lights.end(), is_it) - lights.begin());
     }
 
-    /// Times the device's work while options or a budget need it.
-    void set_timing(bool wanted) {
+    /// Times the device's work while settings or a budget need it.
+    void set_timing(const FrameSettings& settings) {
+        const bool learns = settings.shadow_budget.gpu_ms > 0.0f && !device->info().is_software;
+        const bool wanted = settings.time_gpu || learns;
         if (wanted == is_timed) return;
         using Mode = gl::TimingMode;
         device->set_timing(!wanted ? Mode::off : device->info().is_software ? Mode::finish : Mode::query);
@@ -35,10 +37,11 @@ struct Frame::State {
     }
 
     std::unique_ptr<gl::Device> device;
+    FrameDevice info;
     std::unique_ptr<FrameSystem> system;
     visibility::CasterTrees trees;
     visibility::LightQueries queries;
-    bool time_gpu = false, is_timed = false;
+    bool is_timed = false;
 };
 
 Frame::Frame(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -52,16 +55,17 @@ Result<std::unique_ptr<Frame>> Frame::create(const assets::MeshLibrary& library,
     if (!device) return device.error();
     auto system = FrameSystem::create(*device.value(), library, options.history ? *options.history : shadow::History{});
     if (!system) return system.error();
-    return std::unique_ptr<Frame>(new Frame(
-        std::make_unique<State>(std::move(device).value(), std::move(system).value(), library, options.time_gpu)));
+    return std::unique_ptr<Frame>(
+        new Frame(std::make_unique<State>(std::move(device).value(), std::move(system).value(), library)));
 }
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
-    state_->set_timing(state_->time_gpu || settings.shadow_budget.gpu_ms > 0.0f);
+    state_->set_timing(settings);
     state_->system->run(world, settings);
 }
 
 const FrameReport& Frame::report() const { return state_->system->report(); }
+const FrameDevice& Frame::device() const { return state_->info; }
 
 unsigned Frame::picture_texture() const { return gl::gl_name(*state_->device, state_->system->picture_texture()); }
 

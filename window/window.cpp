@@ -18,12 +18,15 @@ struct Window::State {
     platform::Window* window = nullptr;  // null: headless
     glm::uvec2 size_px{0, 0};
     GLuint framebuffer = 0, colour = 0, depth = 0;
+    GLuint shown = 0;          // framebuffer around a picture of the program's own
     std::uint32_t frames = 0;  // begun
+    Input no_input = {};
     bool closed = false;
     std::chrono::steady_clock::time_point start{};
 
     bool make_picture(glm::uvec2 size);
     void release_picture();
+    GLuint framebuffer_of(GLuint picture);
     bool is_last() const { return options.frames > 0 && frames >= options.frames; }
 };
 
@@ -32,6 +35,7 @@ bool Window::State::make_picture(glm::uvec2 size) {
     if (framebuffer != 0 && size == size_px) return true;
     release_picture();
     size_px = size;
+    if (!options.own_picture) return true;
     const auto width = static_cast<GLsizei>(size.x), height = static_cast<GLsizei>(size.y);
     glCreateTextures(GL_TEXTURE_2D, 1, &colour);
     glTextureStorage2D(colour, 1, GL_SRGB8_ALPHA8, width, height);
@@ -48,6 +52,14 @@ void Window::State::release_picture() {
     glDeleteTextures(1, &colour);
     glDeleteTextures(1, &depth);
     framebuffer = colour = depth = 0;
+}
+
+/// Returns the framebuffer to read a picture from; 0: the window's own, where there is none.
+GLuint Window::State::framebuffer_of(GLuint picture) {
+    if (picture == 0) return framebuffer;
+    if (shown == 0) glCreateFramebuffers(1, &shown);
+    glNamedFramebufferTexture(shown, GL_COLOR_ATTACHMENT0, picture, 0);
+    return shown;
 }
 
 Result<bool> write_screenshot(unsigned colour_texture, const std::string& file) {
@@ -89,39 +101,52 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
 }
 
 Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Window::~Window() { state_->release_picture(); }
+Window::~Window() {
+    state_->release_picture();
+    glDeleteFramebuffers(1, &state_->shown);
+}
 
 bool Window::begin_frame() {
     State& s = *state_;
     if (s.closed || s.is_last()) return false;
     if (s.frames == 0) s.start = std::chrono::steady_clock::now();
     if (s.window) {
-        const platform::Input& input = s.window->poll();
-        if (input.close_requested) return false;
+        const Input& input = s.window->poll();
+        if (input.close_requested && s.frames > 0) return false;
         const glm::uvec2 size(input.framebuffer_width, input.framebuffer_height);
         if (size.x > 0 && size.y > 0 && !s.make_picture(size)) return false;  // 0: minimised
     }
     ++s.frames;
+    if (!s.options.own_picture) return true;
     glBindFramebuffer(GL_FRAMEBUFFER, s.framebuffer);
     glViewport(0, 0, static_cast<GLsizei>(s.size_px.x), static_cast<GLsizei>(s.size_px.y));
     return true;
 }
 
-Result<bool> Window::end_frame() {
+Result<bool> Window::end_frame(unsigned picture) {
     State& s = *state_;
     const auto width = static_cast<GLint>(s.size_px.x), height = static_cast<GLint>(s.size_px.y);
     if (s.window) {
+        const GLuint from = s.framebuffer_of(picture);
         const GLboolean cuts = glIsEnabled(GL_SCISSOR_TEST), encodes = glIsEnabled(GL_FRAMEBUFFER_SRGB);
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_FRAMEBUFFER_SRGB);  // colours are encoded already
-        glBlitNamedFramebuffer(s.framebuffer, 0, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                               GL_NEAREST);
+        if (from != 0)
+            glBlitNamedFramebuffer(from, 0, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         if (cuts == GL_TRUE) glEnable(GL_SCISSOR_TEST);
         if (encodes == GL_TRUE) glEnable(GL_FRAMEBUFFER_SRGB);
         s.window->present();
     }
     if (!s.is_last() || s.options.screenshot.empty()) return true;
-    return write_screenshot(s.colour, s.options.screenshot);
+    return write_screenshot(picture != 0 ? picture : s.colour, s.options.screenshot);
+}
+
+const Input& Window::input() const { return state_->window ? state_->window->input() : state_->no_input; }
+void Window::capture_mouse(bool on) {
+    if (state_->window) state_->window->capture_mouse(on);
+}
+void Window::set_title(std::string_view title) {
+    if (state_->window) state_->window->set_title(title);
 }
 
 glm::uvec2 Window::size_px() const { return state_->size_px; }

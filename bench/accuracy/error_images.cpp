@@ -1,5 +1,6 @@
 #include "bench/accuracy/error_images.h"
 
+#include "bench/common/png_file.h"
 #include "sample_game/support/files/image_files.h"
 #include "systems/truth/error_colours.h"
 
@@ -20,7 +21,7 @@ std::optional<Error> write(const Accuracy& accuracy, const std::filesystem::path
             const Colour colour = colour_of((height - 1 - row) * width + x);
             rgba.insert(rgba.end(), colour.begin(), colour.end());
         }
-    return game::write_png(file, accuracy.size_px.x, accuracy.size_px.y, rgba);
+    return write_png(file, accuracy.size_px.x, accuracy.size_px.y, rgba);
 }
 
 }  // namespace

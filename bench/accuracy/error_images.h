@@ -6,7 +6,7 @@
 
 namespace gnomon::bench {
 
-/// Writes folder/<name>_truth.png, _measured.png and _error.png for each light. Errors: those of game::write_png and
+/// Writes folder/<name>_truth.png, _measured.png and _error.png for each light. Errors: those of write_png and
 /// make_writable_folder.
 /// Colours of _error.png:
 /// - green: lit in both; dark: shadow in both;

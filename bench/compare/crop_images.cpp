@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 
+#include "bench/common/png_file.h"
 #include "sample_game/support/files/image_files.h"
 #include "systems/truth/error_colours.h"
 
@@ -82,7 +83,7 @@ Result<RowPictures> RowPictures::make(const std::filesystem::path& folder, const
         const auto write = [&](const char* name, const std::vector<float>& visibility) {
             const auto rgba = part_of(low, part_px, pictures.size_px_.x,
                                       [&](std::size_t i) { return visibility_colour(visibility[i]); });
-            return game::write_png(folder / (light.name + name), part_px.x, part_px.y, rgba);
+            return write_png(folder / (light.name + name), part_px.x, part_px.y, rgba);
         };
         if (auto error = write("_point.png", light.point.visibility)) return *error;
         if (light.disk.visibility.empty()) continue;
@@ -110,8 +111,8 @@ std::optional<Error> RowPictures::write(const std::string& stem, const TracedLig
     });
     const auto jpeg = encode_jpeg(part_px.x, part_px.y, drawn, kJpegQuality);
     if (auto error = game::write_file(folder_ / (stem + "_render.jpg"), std::as_bytes(std::span(jpeg)))) return error;
-    if (auto error = game::write_png(folder_ / (stem + "_shown.png"), part_px.x, part_px.y, shown)) return error;
-    return game::write_png(folder_ / (stem + "_error.png"), part_px.x, part_px.y, off);
+    if (auto error = write_png(folder_ / (stem + "_shown.png"), part_px.x, part_px.y, shown)) return error;
+    return write_png(folder_ / (stem + "_error.png"), part_px.x, part_px.y, off);
 }
 
 }  // namespace gnomon::bench

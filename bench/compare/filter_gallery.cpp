@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "bench/accuracy/accuracy.h"
+#include "bench/common/png_file.h"
 #include "bench/compare/filter_variants.h"
 #include "bench/flicker/map_readback.h"
 #include "bench/glsl_on_cpu/cpu_lookup.h"
@@ -80,7 +81,7 @@ std::optional<Error> write_window(const std::vector<float>& values, glm::uvec2 s
             const auto level = static_cast<std::uint8_t>(value * kByteMax + kRounding);
             rgba.insert(rgba.end(), {level, level, level, 255});
         }
-    return game::write_png(file, shown.x, shown.y, rgba);
+    return write_png(file, shown.x, shown.y, rgba);
 }
 
 /// Returns the mean difference from the truth, about the source with its size if it has one. A blurred value counts by

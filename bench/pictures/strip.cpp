@@ -6,9 +6,9 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "bench/common/png_file.h"
 #include "bench/compare/crop_images.h"
 #include "bench/compare/evaluate_configuration.h"
-#include "sample_game/support/files/image_files.h"
 
 namespace gnomon::bench {
 namespace {
@@ -113,7 +113,7 @@ std::optional<Error> write_strip(const Strip& strip, const std::filesystem::path
             }
             rgba.insert(rgba.end(), {colour[0], colour[1], colour[2], 255});
         }
-    return game::write_png(file, size_px.x, size_px.y, rgba);
+    return write_png(file, size_px.x, size_px.y, rgba);
 }
 
 std::string strip_table(const Strip& strip) {

@@ -9,9 +9,6 @@
 /// Functions of boxes. A default box is the neutral element of merged().
 namespace gnomon::math {
 
-/// Returns true if the box contains no point; NaN counts as empty.
-inline bool is_empty(const Aabb& b) { return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z); }
-
 /// Returns true if all six numbers are finite.
 bool is_finite(const Aabb& b);
 

@@ -124,6 +124,7 @@ public:
         read_size();
         return input_;
     }
+    const Input& input() const override { return input_; }
     void present() override { glfwSwapBuffers(window_); }
     void capture_mouse(bool on) override {
         glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);

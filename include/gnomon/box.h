@@ -14,6 +14,9 @@ struct Aabb {
     bool operator==(const Aabb&) const = default;
 };
 
+/// Returns true if the box contains no point; NaN counts as empty.
+inline bool is_empty(const Aabb& b) { return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z); }
+
 }  // namespace gnomon::math
 
 namespace gnomon::gl {

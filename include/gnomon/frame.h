@@ -25,9 +25,19 @@ struct MeshLibrary;
 
 namespace gnomon::debug {
 
-struct ViewRow;
+struct ViewDrawer;
 
-/// Finds a view, for example "cascades"; null if there is none of that name.
+/// A debug view.
+struct ViewRow {
+    std::string_view name;     // for example "cascades"
+    bool needs_light;          // false: it can show all lights at once
+    std::string_view meaning;  // one line
+    const ViewDrawer* drawer;  // how Gnomon draws it
+};
+
+/// Lists all views.
+std::span<const ViewRow> view_table();
+/// Finds a view by name; null if there is none.
 const ViewRow* find_view(std::string_view name);
 
 /// Debug view to draw over the picture; docs/how-to/debug.md shows all.
@@ -236,15 +246,23 @@ struct FrameSettings {
     /// one tap and reports filter_program_waits. Default: no limit.
     std::uint32_t programs_per_frame = ~0u;
     bool rays = true;  // false: lights with rays get a filtered map instead
+    /// Measure gpu_us. Software devices finish their work around each timer, which slows frames down. A budget in
+    /// milliseconds measures by itself, except there.
+    bool time_gpu = false;
 };
 
 /// What is chosen once, when a Frame is created.
 struct FrameOptions {
-    bool time_gpu = false;  // measure gpu_us; implied by a budget in milliseconds
     /// Receives messages of the GL implementation about Gnomon's calls. Empty: none.
     std::function<void(std::string_view)> message = {};
     /// Memory of a frame that lost its context: pictures continue bit for bit. Null: a new beginning.
     std::shared_ptr<const shadow::History> history = nullptr;
+};
+
+/// Device behind a frame.
+struct FrameDevice {
+    std::string name;               // the renderer and OpenGL's version, as the driver states them
+    std::uint32_t max_side_px = 0;  // longest side of a picture
 };
 
 /// Draws a registry: transforms, shadows, lighting. The OpenGL 4.5 core context must be current in every call, and when
@@ -264,9 +282,11 @@ public:
     void run(ecs::Registry& world, const FrameSettings& settings);
     /// Returns what the last run() did, light by light. Valid until the next one.
     const FrameReport& report() const;
+    /// Returns the device that draws.
+    const FrameDevice& device() const;
 
     /// Returns the last frame's picture, a GL_TEXTURE_2D of GL_SRGB8_ALPHA8; 0: none was drawn. It is Gnomon's, and
-    /// valid until the next run().
+    /// valid until the next run(). Until then a program may draw over it, through a framebuffer of its own.
     unsigned picture_texture() const;
     /// Reads it: viewport_px, 4 bytes sRGB per pixel, top row first. Returns false if there is none.
     bool read_picture(std::vector<std::uint8_t>& rgba);
@@ -286,6 +306,57 @@ public:
 private:
     struct State;
     explicit Frame(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Place of a visibility query: a point, or a sphere; the half of it that faces the light receives.
+struct LitPlace {
+    glm::dvec3 position_m{0.0};  // world
+    double radius_m = 0.0;       // 0: a point
+};
+
+/// Effort and limits of a query; the defaults serve games.
+struct VisibilityOptions {
+    /// Rays per place where the place or the light has a size (Light::source_radius_m, sun_radius_rad); at least 1.
+    /// Elsewhere one ray is all there is. The same places on both in every query, spread evenly.
+    std::uint32_t samples = 16;
+    /// Distance along the ray below which casters are ignored, to leave out the surface under the place, metres. A
+    /// surface exactly at the place, to double's rounding, is always ignored.
+    double nearest_m = 0.0;
+    unsigned threads = 1;  // that share the places, this one included; at least 1
+};
+
+/// Visibility of lights for rules of a game, servers and tests: rays alone, without a registry, a device or a picture.
+/// Costs no memory before the first ask(). A copy makes its own trees.
+class VisibilityQueries {
+public:
+    /// Creates queries without casters. `library`, with complete() meshes, must outlive them. Bent ones count at rest.
+    explicit VisibilityQueries(const assets::MeshLibrary& library);
+    /// Copies casters and their places.
+    VisibilityQueries(const VisibilityQueries& other);
+    /// Replaces all of it by copies.
+    VisibilityQueries& operator=(const VisibilityQueries& other);
+    /// Moves all of it; `other` may only be assigned or destroyed then.
+    VisibilityQueries(VisibilityQueries&& other) noexcept;
+    /// Replaces all of it by what `other` has.
+    VisibilityQueries& operator=(VisibilityQueries&& other) noexcept;
+    ~VisibilityQueries();
+
+    /// Adds a caster and returns its number: 0, 1, … It casts nothing until it is placed, nor once its mesh was
+    /// replaced or removed.
+    std::size_t add_caster(std::uint32_t mesh);
+    /// Moves a caster. The same place costs nothing. A place that is not finite, or has no volume, casts nothing.
+    void place(std::size_t caster, const WorldTransform& at);
+
+    /// Sets shares[i] to the share of `light` that reaches places[i], 0 to 1; both spans have equal length. 0 beyond
+    /// its range and outside its cone; attenuation and angles of incidence do not count. Both faces of casters block,
+    /// except where an alpha mask has a hole. Exact in double; results do not depend on batches,
+    /// order or threads.
+    void ask(const Light& light, const WorldTransform& light_at, std::span<const LitPlace> places,
+             std::span<float> shares, const VisibilityOptions& options = {});
+
+private:
+    struct State;
     std::unique_ptr<State> state_;
 };
 

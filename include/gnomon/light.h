@@ -13,6 +13,8 @@ inline constexpr float kMostSourceRadius_m = 1.0e4f;
 
 /// Kind of a light. `directional`: a sun, with parallel rays. `spot`: a cone from a place. `point`: in all directions.
 enum class LightKind : unsigned char { directional, spot, point };
+/// Returns its name, for example "spot".
+const char* to_text(LightKind kind);
 
 /// A light as in KHR_lights_punctual: it shines along its own -Z (directional, spot).
 ///
@@ -86,6 +88,8 @@ enum class ShadowFilter : std::uint8_t {
     count,               // number of filters
     automatic            // triangles, or exact where only that meets max_error_px
 };
+/// Returns its name, for example "pcf_grid".
+const char* to_text(ShadowFilter filter);
 
 /// Faces of casters that a light draws into its maps. The choice affects only solid meshes: closed, wound outward,
 /// opaque and single-sided throughout. Both sides of other meshes are drawn, because light would shine through a single

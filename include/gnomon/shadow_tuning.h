@@ -6,6 +6,21 @@
 
 namespace gnomon {
 
+/// Largest ShadowTuning::Kernel::size_texel; more is cut, as with all limits here, and reported (filter_cut).
+inline constexpr std::uint32_t kMostFilterSize = 31;
+/// Largest ShadowTuning::Kernel::taps.
+inline constexpr std::uint32_t kMostFilterTaps = 32;
+/// Largest ShadowTuning::Kernel::penumbra_rays.
+inline constexpr std::uint32_t kMostPenumbraRays = 256;
+/// Largest half-width of a spread, texels. A wider one costs a map too much border, and needs too much bias.
+inline constexpr float kMostSpread_texel = 16.0f;
+/// Largest ShadowTuning::Moments::levels.
+inline constexpr std::uint32_t kMostMomentLevels = 4;
+/// Largest ShadowTuning::Moments::anisotropy.
+inline constexpr std::uint32_t kMostMomentAnisotropy = 16;
+/// Largest share of light that may count as dark. Beyond it almost no penumbra remains.
+inline constexpr float kMostMomentBleeding = 0.9f;
+
 /// Seed of filters with a random pattern of taps. `screen`: the pixel; the pattern stays on the screen when the camera
 /// moves. `world`: the cell of the world in which the point lies; the pattern stays on the surface.
 enum class FilterSeed : std::uint8_t { screen, world };

@@ -122,9 +122,11 @@ struct DrawableDesc {
 struct LightDesc {
     std::string name = {};  // in captures and messages; empty: "light" and a number; a repeated one gets .1, .2, …
     Light light = {};       // kind, colour, intensity, range, cone and size
-    glm::dvec3 position_m{0.0};            // spot and point: world
-    glm::dvec3 direction{0.0, -1.0, 0.0};  // sun and spot: in which it shines, world; any length above 0
-    LightShadow shadow = {};               // accuracy and cost of its shadow
+    glm::dvec3 position_m{0.0};  // spot and point: world
+    /// Way in which a sun or spot shines, world; any length above 0. How a spot's map turns about it is Gnomon's
+    /// choice.
+    glm::dvec3 direction{0.0, -1.0, 0.0};
+    LightShadow shadow = {};  // accuracy and cost of its shadow
 };
 
 /// Range of depths in clip space after division by w. minus_one_to_one is OpenGL's default; zero_to_one is what

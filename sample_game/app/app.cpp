@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
-#include "engine/gl/device_gl45.h"
 #include "gnomon/light.h"
+#include "gnomon/window.h"
 #include "sample_game/app/debug_option.h"
 #include "sample_game/support/files/image_files.h"
 #include "sample_game/support/scene/open_scene.h"
@@ -66,7 +67,7 @@ std::optional<Error> check_outputs(const CommandLine& line) {
     return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
 }
 
-void freeze_at_fit_camera(GameWorld& world, FrameSystem& frame, FrameSettings& settings) {
+void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings) {
     if (!world.fit_camera) return;
     settings.freeze_fits = true;
     activate_camera(world.scene, *world.fit_camera, world.registry);
@@ -74,30 +75,23 @@ void freeze_at_fit_camera(GameWorld& world, FrameSystem& frame, FrameSettings& s
     activate_camera(world.scene, world.camera, world.registry);
 }
 
-void set_timing(gl::Device& device, bool on) {
-    const gl::TimingMode mode = device.info().is_software ? gl::TimingMode::finish : gl::TimingMode::query;
-    device.set_timing(on ? mode : gl::TimingMode::off);
+FrameSettings frame_settings(const CommandLine& line) {
+    return {.viewport_px = line.size_px,
+            .exposure_ev = line.exposure_ev,
+            .debug = line.debug,
+            .shadow_budget = line.shadow_budget,
+            .time_gpu = line.stats.has_value()};
 }
 
-bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device) {
-    return line.stats || (budget.gpu_ms > 0.0f && !device.info().is_software);
-}
-
-Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& fit_history) {
-    // Without a debug context the driver reports nothing. A search for a driver bug begins with a real sink here.
-    Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
-    if (!device) return device.error();
-    Renderer renderer{std::move(device).value(), nullptr};
-    const gl::DeviceInfo& info = renderer.device->info();
-    if (line.size_px.x > info.max_texture_px || line.size_px.y > info.max_texture_px)
-        return Error{
-            .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
-            .rule = "command_line"};
-    set_timing(*renderer.device, wants_timing(line, line.shadow_budget, *renderer.device));
-    Result<std::unique_ptr<FrameSystem>> frame = FrameSystem::create(*renderer.device, world.library, fit_history);
+Result<std::unique_ptr<Frame>> make_frame(const CommandLine& line, const GameWorld& world,
+                                          std::shared_ptr<const shadow::History> history) {
+    auto frame = Frame::create(world.library, {.history = std::move(history)});
     if (!frame) return frame.error();
-    renderer.frame = std::move(frame).value();
-    return renderer;
+    const std::uint32_t most_px = frame.value()->device().max_side_px;
+    if (line.size_px.x > most_px || line.size_px.y > most_px)
+        return Error{.message = "--size: this device draws up to " + std::to_string(most_px) + " pixels a side",
+                     .rule = "command_line"};
+    return std::move(frame).value();
 }
 
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log) {
@@ -111,26 +105,25 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 
 unsigned trace_threads() { return std::max(std::thread::hardware_concurrency(), 2u) - 1u; }
 
-std::optional<Error> write_picture(const std::filesystem::path& file, FrameSystem& frame, glm::uvec2 size_px) {
-    std::vector<std::uint8_t> rgba;
-    if (!frame.read_picture(rgba))
+std::optional<Error> write_picture(const std::filesystem::path& file, const Frame& frame) {
+    if (frame.picture_texture() == 0)
         return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
-    return write_png(file, size_px.x, size_px.y, rgba);
+    const Result<bool> written = write_screenshot(frame.picture_texture(), file.string());
+    return written ? std::nullopt : std::optional(written.error());
 }
 
-std::optional<Error> write_outputs(const CommandLine& line, FrameSystem& frame, glm::uvec2 size_px,
+std::optional<Error> write_outputs(const CommandLine& line, const GameWorld& world, Frame& frame, glm::uvec2 size_px,
                                    const StatsFile& stats) {
     if (line.screenshot)
-        if (auto error = write_picture(*line.screenshot, frame, size_px)) return error;
+        if (auto error = write_picture(*line.screenshot, frame)) return error;
     if (line.visibility) {
-        const std::vector<LightItem>& lights = frame.snapshot().lights;
         std::vector<float> values;
-        for (std::uint32_t i = 0; i < lights.size(); ++i) {
-            if (!lights[i].has_shadow) continue;
-            if (!frame.read_visibility(i, values))
-                return Error{.message = "the device could not draw the visibility of " + lights[i].name,
+        for (const LightReport& light : frame.report().lights) {
+            if (!world.registry.has<LightShadow>(light.entity)) continue;
+            if (!frame.read_visibility(light.entity, values))
+                return Error{.message = "the device could not draw the visibility of " + light.name,
                              .rule = "output.visibility"};
-            if (auto error = write_pfm(*line.visibility / (lights[i].name + ".pfm"), size_px.x, size_px.y, values))
+            if (auto error = write_pfm(*line.visibility / (light.name + ".pfm"), size_px.x, size_px.y, values))
                 return error;
         }
     }

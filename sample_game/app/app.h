@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "gnomon/result.h"
 #include "sample_game/app/command_line.h"
 #include "sample_game/app/stats_json.h"
 #include "sample_game/game/game_world.h"
-#include "systems/frame_system.h"
 
 namespace gnomon::game {
 
@@ -20,22 +19,17 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
 /// Checks that every output named on the command line can be written. Makes the folder of --visibility.
 std::optional<Error> check_outputs(const CommandLine& line);
 
-/// Device and frame for the context that is current on this thread.
-struct Renderer {
-    std::unique_ptr<gl::Device> device;
-    std::unique_ptr<FrameSystem> frame;
-};
-Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world,
-                               const shadow::History& fit_history = {});
+/// Makes the renderer for the context that is current on this thread. `history`: its predecessor's, which lost its
+/// context.
+Result<std::unique_ptr<Frame>> make_frame(const CommandLine& line, const GameWorld& world,
+                                          std::shared_ptr<const shadow::History> history = nullptr);
+
+/// Returns the settings of frames by the command line.
+FrameSettings frame_settings(const CommandLine& line);
 
 /// Runs a frame for the camera of --fit-camera and freezes its fits, so that later frames show them from the other
 /// camera. Does nothing without --fit-camera.
-void freeze_at_fit_camera(GameWorld& world, FrameSystem& frame, FrameSettings& settings);
-
-/// Switches measuring of the GPU's time, by the method that is right on this device.
-void set_timing(gl::Device& device, bool on);
-/// Returns whether GPU times are needed: for --stats, or for a time budget unless measuring slows each frame down.
-bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device);
+void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings);
 
 /// Warns once of everything that is odd about the scene and yet no error.
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);
@@ -44,11 +38,11 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 unsigned trace_threads();
 
 /// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
-std::optional<Error> write_outputs(const CommandLine& line, FrameSystem& frame, glm::uvec2 size_px,
+std::optional<Error> write_outputs(const CommandLine& line, const GameWorld& world, Frame& frame, glm::uvec2 size_px,
                                    const StatsFile& stats);
 
 /// Writes the picture as it is to `file`.
-std::optional<Error> write_picture(const std::filesystem::path& file, FrameSystem& frame, glm::uvec2 size_px);
+std::optional<Error> write_picture(const std::filesystem::path& file, const Frame& frame);
 
 /// Runs all frames without a window, as run_window() does in one. Returns nothing on success.
 std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);

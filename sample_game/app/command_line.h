@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/frame.h"
 #include "gnomon/result.h"
 #include "sample_game/support/settings/presets.h"
-#include "systems/debug/debug_view.h"
-#include "systems/shadow/frame/quality_limits.h"
 
 namespace gnomon::game {
 

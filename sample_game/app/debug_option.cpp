@@ -2,15 +2,16 @@
 
 #include <algorithm>
 
+#include "gnomon/light.h"
 #include "sample_game/support/settings/parse_number.h"
 
 namespace gnomon::game {
 namespace {
 
-constexpr std::uint64_t kMostMaps = shadow::kMaxViews;
+constexpr std::uint64_t kMostMaps = kMaxCascades;
 
 std::string spelling(const debug::ViewRow& row) {
-    return std::string(row.name) + (row.scope == debug::ViewScope::one_light ? ":LIGHT[:MAP]" : "[:LIGHT[:MAP]]");
+    return std::string(row.name) + (row.needs_light ? ":LIGHT[:MAP]" : "[:LIGHT[:MAP]]");
 }
 
 Error wrong(const char* flag, const std::string& message, const char* rule) {
@@ -34,7 +35,7 @@ Result<debug::Request> read_debug_request(std::string_view text) {
     request.view = debug::find_view(take_word(text));
     if (!request.view) return wrong("--debug", "unknown view in '" + whole + "'; --list shows them", "debug.view");
     request.light = std::string(take_word(text));
-    const bool all = colons == 0 && request.view->scope == debug::ViewScope::one_or_all;
+    const bool all = colons == 0 && !request.view->needs_light;
     if (colons > 2 || (request.light.empty() && !all))
         return wrong("--debug", "'" + whole + "' is not " + spelling(*request.view), "debug.syntax");
     if (colons < 2) return request;

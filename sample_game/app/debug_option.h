@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gnomon/frame.h"
 #include "gnomon/result.h"
-#include "systems/debug/debug_view.h"
 
 /// Debug views by name, for --debug and --list.
 namespace gnomon::game {

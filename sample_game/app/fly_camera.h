@@ -1,8 +1,7 @@
 #pragma once
-#include "engine/platform/context.h"
 #include "gnomon/components.h"
 #include "gnomon/registry.h"
-#include "systems/extract/snapshot.h"
+#include "gnomon/window.h"
 
 namespace gnomon::game {
 
@@ -13,12 +12,12 @@ public:
     /// Takes the speed of walking; Shift is faster.
     explicit FlyCamera(double speed_m_per_s) : speed_m_per_s_(speed_m_per_s) {}
 
-    /// Moves the camera by one frame's input. `seen`: camera of the last frame. `look`: the mouse turns the head.
-    void update(const platform::Input& input, bool look, double dt_s, const ConsumerItem& seen,
-                ecs::Registry& registry);
+    /// Moves the camera by one frame's input. `look`: the mouse turns the head. Before the first frame was run there is
+    /// no place to start from, and nothing moves.
+    void update(const Input& input, bool look, double dt_s, ecs::Registry& registry);
 
 private:
-    void take_over(const ConsumerItem& seen, ecs::Registry& registry);
+    bool take_over(ecs::Registry& registry);
 
     double speed_m_per_s_;
     ecs::Entity entity_ = ecs::kNull;

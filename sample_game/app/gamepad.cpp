@@ -8,9 +8,6 @@
 namespace gnomon::game {
 namespace {
 
-using platform::Gamepad;
-using platform::PadButton;
-
 constexpr float kTriggerPressed = 0.0f;  // half its way
 
 /// Returns the stick's way without its dead zone: length 0 to 1, right and up positive.

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "engine/platform/context.h"
+#include "gnomon/window.h"
 #include "sample_game/game/rules.h"
 
 namespace gnomon::game {
@@ -13,7 +13,7 @@ namespace gnomon::game {
 /// `before`: the same slots one poll ago. A button counts as pressed if its pad was present then and the button was up,
 /// so that plugging in and out presses nothing. `dt_s`: duration of the look. Sticks near their middle (kDeadZone),
 /// axes that are no number and absent pads have no effect.
-GameInput gamepad_input(std::span<const platform::Gamepad> before, std::span<const platform::Gamepad> now, double dt_s);
+GameInput gamepad_input(std::span<const Gamepad> before, std::span<const Gamepad> now, double dt_s);
 
 /// A worn stick rests up to here; beyond, its way counts from 0 again. XInput's own zones are 0.24 and 0.27.
 inline constexpr double kDeadZone = 0.25;

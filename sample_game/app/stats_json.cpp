@@ -2,9 +2,8 @@
 
 #include <span>
 
+#include "gnomon/light.h"
 #include "sample_game/support/files/image_files.h"
-#include "systems/shadow/request/filter_table.h"
-#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::game {
 namespace {
@@ -55,14 +54,14 @@ Json kept_stats(const KeptReport& kept) {
 }
 
 Json filter_stats(const FilterReport& filter) {
-    return {{"name", shadow::filter_row(filter.filter).name},
+    return {{"name", to_text(filter.filter)},
             {"reason", reason_code(filter.reason)},
             {"usual_error_px", or_null(filter.usual_error_px)}};
 }
 
 Json light_stats(const FrameReport& report, const LightReport& light) {
     return {{"name", light.name},
-            {"kind", shadow::light_kind_row(light.kind).name},
+            {"kind", to_text(light.kind)},
             {"state", to_text(light.state)},
             {"reason", reason_code(light.reason)},
             {"predicted_error_px", light.predicted_error_px},

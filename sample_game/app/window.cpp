@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "engine/platform/context.h"
+#include "gnomon/window.h"
 #include "sample_game/app/app.h"
 #include "sample_game/app/fly_camera.h"
 #include "sample_game/app/gamepad.h"
@@ -56,7 +56,7 @@ private:
 class TitleMeter {
 public:
     /// Counts a frame and updates the title. `state` is shown at once when it changes; empty: none.
-    void frame_done(platform::Window& window, const std::string& state, const std::string& device) {
+    void frame_done(Window& window, const std::string& state, const std::string& device) {
         ++frames_;
         if (state != state_ && !rate_.empty()) show(window, state, device);
         const double since_s = seconds(Clock::now() - start_);
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    void show(platform::Window& window, const std::string& state, const std::string& device) {
+    void show(Window& window, const std::string& state, const std::string& device) {
         window.set_title("Gnomon - " + (state.empty() ? "" : state + " - ") + rate_ + " - " + device);
         state_ = state;
     }
@@ -79,13 +79,11 @@ private:
     std::uint64_t frames_ = 0;
 };
 
-bool pressed(const platform::Input& input, platform::Key key) { return input.pressed[static_cast<std::size_t>(key)]; }
-
-bool wants_out(const platform::Input& input) { return input.close_requested || pressed(input, platform::Key::escape); }
+bool pressed(const Input& input, Key key) { return input.pressed[static_cast<std::size_t>(key)]; }
 
 /// Captures the mouse at a click. Tab frees it, and it stays free while the panel is shown.
-void update_capture(const platform::Input& input, platform::Window& window, bool panel, bool& captured) {
-    const bool want = (captured || input.mouse_pressed) && !pressed(input, platform::Key::tab) && !panel;
+void update_capture(const Input& input, Window& window, bool panel, bool& captured) {
+    const bool want = (captured || input.mouse_pressed) && !pressed(input, Key::tab) && !panel;
     if (want == captured) return;
     captured = want;
     window.capture_mouse(captured);
@@ -98,11 +96,11 @@ std::string words_of_state(const GameWorld& world, const FrozenFrame& frozen) {
 }
 
 /// Freezes the frame that is shown, or lets it go.
-void toggle_frozen(const GameWorld& world, const FrameSystem& frame, FrozenFrame& frozen) {
+void toggle_frozen(GameWorld& world, glm::uvec2 size_px, FrozenFrame& frozen) {
     if (frozen.on())
         frozen.thaw();
     else
-        frozen.freeze(frame, world.library, trace_threads());
+        frozen.freeze(world.registry, world.library, size_px, trace_threads());
 }
 
 /// Motion in the window: that of the game, or that of a scene with a walk through it.
@@ -112,11 +110,11 @@ public:
         : world_(world), line_(line), walker_(walking_speed(world.scene.bounds_ws)), clock_(line) {}
 
     /// Goes on to the next frame. `look`: the mouse turns the head. `stop_or_go`: the panel toggles the motion.
-    void advance(const platform::Input& input, bool look, bool stop_or_go, double dt_s, const SceneSnapshot& last) {
+    void advance(const Input& input, bool look, bool stop_or_go, double dt_s) {
         if (world_.game)
             advance_game(input, look, stop_or_go, dt_s);
         else
-            advance_scene(input, look, stop_or_go, dt_s, last);
+            advance_scene(input, look, stop_or_go, dt_s);
         pads_ = input.gamepads;
         ++frame_;
     }
@@ -129,7 +127,7 @@ public:
     }
 
 private:
-    void advance_game(const platform::Input& input, bool look, bool stop_or_go, double dt_s) {
+    void advance_game(const Input& input, bool look, bool stop_or_go, double dt_s) {
         if (line_.frames) {
             world_.game->play_demo_until(frame_time_s(line_, frame_, *line_.frames));
         } else if (line_.demo) {
@@ -141,12 +139,11 @@ private:
         }
         world_.game->apply(world_.registry);
     }
-    void advance_scene(const platform::Input& input, bool look, bool stop_or_go, double dt_s,
-                       const SceneSnapshot& last) {
-        if (pressed(input, platform::Key::p) != stop_or_go) clock_.toggle_pause();
+    void advance_scene(const Input& input, bool look, bool stop_or_go, double dt_s) {
+        if (pressed(input, Key::p) != stop_or_go) clock_.toggle_pause();
         if (frame_ > 0) {
             clock_.advance(dt_s);
-            if (!last.consumers.empty()) walker_.update(input, look, dt_s, last.consumers.front(), world_.registry);
+            walker_.update(input, look, dt_s, world_.registry);
         }
         if (frame_ == 0 || clock_.runs()) set_time(world_.scene, clock_.time_s(frame_), world_.registry);
     }
@@ -155,35 +152,34 @@ private:
     const CommandLine& line_;
     FlyCamera walker_;
     SceneClock clock_;
-    std::array<platform::Gamepad, platform::kMaxGamepads> pads_ = {};  // pads of the frame before
+    std::array<Gamepad, kMaxGamepads> pads_ = {};  // pads of the frame before
     std::uint64_t frame_ = 0;
 };
 
 }  // namespace
 
 std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlog::logger& log) {
-    auto opened = platform::make_window(line.size_px.x, line.size_px.y, "Gnomon", false);
+    auto opened = Window::open({.size_px = line.size_px, .own_picture = false});
     if (!opened) return opened.error();
-    platform::Window& window = *opened.value();
-    auto made = make_renderer(line, world);
+    Window& window = *opened.value();
+    auto made = make_frame(line, world);
     if (!made) return made.error();
-    Renderer renderer = std::move(made).value();
-
-    FrameSettings settings{
-        .viewport_px = line.size_px, .exposure_ev = line.exposure_ev, .shadow_budget = line.shadow_budget};
-    auto drawn = Gui::create(*renderer.device);
+    Frame& frame = *made.value();
+    auto drawn = Gui::create();
     if (!drawn) return drawn.error();
     Gui& gui = *drawn.value();
-    StatsFile stats(renderer.device->info().name);
+
+    FrameSettings settings = frame_settings(line);
+    StatsFile stats(frame.device().name);
     gui.panel.debug = line.debug;
     gui.panel.budget = line.shadow_budget;
     Play play(world, line);
     TitleMeter title;
     bool captured = false, is_first = true;
     Clock::time_point last = Clock::now();
-    while (!line.frames || play.frame() < *line.frames) {
-        const platform::Input& input = window.poll();
-        if (play.frame() > 0 && wants_out(input))
+    while ((!line.frames || play.frame() < *line.frames) && window.begin_frame()) {
+        const Input& input = window.input();
+        if (play.frame() > 0 && pressed(input, Key::escape))
             break;  // the first frame is always drawn: there is something to write
         if (input.framebuffer_width == 0 || input.framebuffer_height == 0) {
             std::this_thread::sleep_for(kMinimisedPause);
@@ -191,50 +187,45 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         }
         const double dt_s = line.frames ? kFixedStep_s : std::min(seconds(Clock::now() - last), kLongestStep_s);
         last = Clock::now();
-        if (pressed(input, platform::Key::f1)) {
-            gui.panel.shown = !gui.panel.shown;
-            set_timing(*renderer.device,
-                       gui.panel.shown || wants_timing(line, gui.panel.budget, *renderer.device));  // it shows times
-        }
-        if (pressed(input, platform::Key::f5) || std::exchange(gui.panel.toggle_frozen, false))
-            toggle_frozen(world, *renderer.frame, gui.frozen);
-        if (pressed(input, platform::Key::f2)) {
+        if (pressed(input, Key::f1)) gui.panel.shown = !gui.panel.shown;
+        if (pressed(input, Key::f5) || std::exchange(gui.panel.toggle_frozen, false))
+            toggle_frozen(world, settings.viewport_px, gui.frozen);
+        if (pressed(input, Key::f2)) {
             if (gui.frozen.on())
                 gui.frozen.choose_next();
             else
                 next_debug_light(world, gui.panel.debug);
         }
-        if (pressed(input, platform::Key::f3)) next_debug_view(world, gui.panel.debug);
-        if (pressed(input, platform::Key::f4)) gui.panel.freeze_fits = !gui.panel.freeze_fits;
+        if (pressed(input, Key::f3)) next_debug_view(world, gui.panel.debug);
+        if (pressed(input, Key::f4)) gui.panel.freeze_fits = !gui.panel.freeze_fits;
         const bool was_captured = captured;  // how the mouse came to where it clicked does not turn the head
         update_capture(input, window, gui.panel.shown, captured);
         const bool stop_or_go = std::exchange(gui.panel.toggle_motion, false);
-        if (!gui.frozen.on())
-            play.advance(input, was_captured && captured, stop_or_go, dt_s, renderer.frame->snapshot());
-        settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
+        if (!gui.frozen.on()) play.advance(input, was_captured && captured, stop_or_go, dt_s);
+        settings.viewport_px = window.size_px();
         settings.shadows = gui.panel.shadows;
         settings.debug = gui.panel.debug;
         settings.freeze_fits = gui.panel.freeze_fits;
         settings.shadow_budget = gui.panel.budget;
+        settings.time_gpu = line.stats || gui.panel.shown;  // the panel shows times
         const bool first = std::exchange(is_first, false);
         if (first) {
-            freeze_at_fit_camera(world, *renderer.frame, settings);
+            freeze_at_fit_camera(world, frame, settings);
             gui.panel.freeze_fits = settings.freeze_fits;
         }
         gui.panel.moving = play.moving();
-        renderer.frame->run(world.registry, settings);
-        if (renderer.frame->report().failure == gl::Failure::context_lost)
+        frame.run(world.registry, settings);
+        if (frame.report().failure == gl::Failure::context_lost)
             return Error{.message = "the graphics context was lost, and the window with it", .rule = "gl.context_lost"};
-        gui.frozen.update(*renderer.frame);
-        gui.draw(world, *renderer.frame, settings.viewport_px, &input, dt_s, true);
-        window.present();
-        if (first) log_warnings(world, renderer.frame->report(), log);
+        gui.frozen.update(frame, world.registry, settings.viewport_px);
+        gui.draw(world, frame, settings.viewport_px, &input, dt_s);
+        if (const Result<bool> shown = window.end_frame(frame.picture_texture()); !shown) return shown.error();
+        if (first) log_warnings(world, frame.report(), log);
         if (line.stats && !gui.frozen.on())
-            stats.add(renderer.frame->report(), play.frame() - 1, play.time_s(),
-                      world.game ? &world.game->state() : nullptr);
-        title.frame_done(window, words_of_state(world, gui.frozen), renderer.device->info().name);
+            stats.add(frame.report(), play.frame() - 1, play.time_s(), world.game ? &world.game->state() : nullptr);
+        title.frame_done(window, words_of_state(world, gui.frozen), frame.device().name);
     }
-    return write_last_frame(line, world, *renderer.frame, settings, &gui, stats);
+    return write_last_frame(line, world, frame, settings, &gui, stats);
 }
 
 }  // namespace gnomon::game

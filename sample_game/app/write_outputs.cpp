@@ -4,9 +4,9 @@ namespace gnomon::game {
 namespace {
 
 /// Freezes the last frame, compares it with its ray-traced truth, and adds the result to `stats`.
-std::optional<Error> judge(const CommandLine& line, const GameWorld& world, FrameSystem& frame, FrozenFrame& frozen,
-                           StatsFile& stats) {
-    frozen.freeze(frame, world.library, trace_threads() + 1);  // nothing is drawn meanwhile
+std::optional<Error> judge(const CommandLine& line, GameWorld& world, Frame& frame, glm::uvec2 size_px,
+                           FrozenFrame& frozen, StatsFile& stats) {
+    frozen.freeze(world.registry, world.library, size_px, trace_threads() + 1);  // nothing is drawn meanwhile
     frozen.finish(frame);
     if (!frozen.on()) return Error{.message = "--truth: no camera sees anything", .rule = "output.truth"};
     for (std::size_t i = 0; i < frozen.lights().size(); ++i) {
@@ -22,15 +22,15 @@ std::optional<Error> judge(const CommandLine& line, const GameWorld& world, Fram
 
 }  // namespace
 
-std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, FrameSystem& frame,
+std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
                                       const FrameSettings& settings, Gui* gui, StatsFile& stats) {
     if (line.truth)
-        if (auto error = judge(line, world, frame, gui->frozen, stats)) return error;
-    if (auto error = write_outputs(line, frame, settings.viewport_px, stats)) return error;
+        if (auto error = judge(line, world, frame, settings.viewport_px, gui->frozen, stats)) return error;
+    if (auto error = write_outputs(line, world, frame, settings.viewport_px, stats)) return error;
     if (!line.truth) return std::nullopt;
     frame.run(world.registry, settings);  // again, for a picture that nothing was drawn over
-    gui->draw(world, frame, settings.viewport_px, nullptr, kStep_s, false);
-    return write_picture(*line.truth, frame, settings.viewport_px);
+    gui->draw(world, frame, settings.viewport_px, nullptr, kStep_s);
+    return write_picture(*line.truth, frame);
 }
 
 }  // namespace gnomon::game

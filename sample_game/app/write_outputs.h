@@ -6,7 +6,7 @@ namespace gnomon::game {
 
 /// Writes the outputs that the command line names, from the last frame, run with `settings`. With --truth it also
 /// traces the frame and writes its picture with the errors over it. `gui`: needed for --truth alone.
-std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, FrameSystem& frame,
+std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
                                       const FrameSettings& settings, Gui* gui, StatsFile& stats);
 
 }  // namespace gnomon::game

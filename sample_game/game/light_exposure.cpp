@@ -1,10 +1,6 @@
 #include "sample_game/game/light_exposure.h"
 
 #include <algorithm>
-#include <glm/matrix.hpp>
-
-#include "systems/extract/drawable_basis.h"
-#include "systems/extract/scene_tree.h"
 
 namespace gnomon::game {
 namespace {
@@ -26,7 +22,7 @@ std::shared_ptr<const assets::MeshLibrary> library_of(const assets::SceneData& s
 }  // namespace
 
 Occluders::Occluders(const assets::SceneData& scene, std::span<const std::int32_t> left_out)
-    : library_(library_of(scene)) {
+    : library_(library_of(scene)), queries_(*library_) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const assets::Node& node = scene.nodes[i];
         const bool out = std::find(left_out.begin(), left_out.end(), static_cast<std::int32_t>(i)) != left_out.end();
@@ -34,34 +30,17 @@ Occluders::Occluders(const assets::SceneData& scene, std::span<const std::int32_
         const auto mesh = static_cast<std::uint32_t>(node.mesh);
         if (scene.meshes[mesh].deformer || scene.meshes[mesh].indices.empty()) continue;
         nodes_.push_back(i);
-        scene_.instances.push_back({.mesh = mesh});
+        queries_.add_caster(mesh);
     }
-    scene_.list_version = scene_.version = 1;
 }
 
 void Occluders::place(std::span<const WorldTransform> poses) {
-    const bool first = !has_tree(scene_);
-    scene_.changed_instances.clear();
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-        const WorldTransform& pose = poses[nodes_[i]];
-        InstanceItem& item = scene_.instances[i];
-        if (!first && item.basis == pose.basis && item.translation_ws_m == pose.translation_ws_m) continue;
-        const std::optional<glm::dmat3> basis = drawable_basis(pose.basis);
-        item.basis = basis.value_or(pose.basis);
-        item.translation_ws_m = pose.translation_ws_m;
-        item.bounds_ws = math::transformed(library_->meshes[item.mesh].bounds_ms, item.basis, pose.translation_ws_m);
-        item.casts = basis.has_value();
-        scene_.changed_instances.push_back(i);
-    }
-    if (first) return build_tree(scene_);
-    if (scene_.changed_instances.empty()) return;
-    ++scene_.version;
-    refit_tree(scene_);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) queries_.place(i, poses[nodes_[i]]);
 }
 
-void Occluders::ask(const LightItem& lamp, std::span<const visibility::Place> places, std::span<float> shares) {
-    if (!queries_) queries_ = std::make_unique<Queries>(*library_);
-    queries_->queries.ask(scene_, lamp, places, {}, shares);
+void Occluders::ask(const Light& lamp, const WorldTransform& at, std::span<const LitPlace> places,
+                    std::span<float> shares) {
+    queries_.ask(lamp, at, places, shares);
 }
 
 }  // namespace gnomon::game

@@ -35,14 +35,10 @@ bool holds(const math::Aabb& box, const glm::dvec3& point) {
 }
 
 /// Converts a lamp to the form that visibility queries take.
-LightItem light_item(const Lamp& lamp, const WorldTransform& pose) {
-    LightItem item;
-    item.kind = lamp.light.type == assets::LightType::spot ? LightKind::spot : LightKind::point;
-    item.position_ws_m = pose.translation_ws_m;
-    item.rotation_ws[2] = glm::normalize(pose.basis[2]);
-    item.range_m = lamp.light.range_m;
-    item.outer_cone_rad = lamp.light.outer_cone_rad;
-    return item;
+Light light_of(const Lamp& lamp) {
+    return {.kind = lamp.light.type == assets::LightType::spot ? LightKind::spot : LightKind::point,
+            .range_m = lamp.light.range_m,
+            .outer_cone_rad = lamp.light.outer_cone_rad};
 }
 
 }  // namespace
@@ -141,17 +137,17 @@ void Game::place() {
 }
 
 double Game::measured_light() {
-    std::array<visibility::Place, kBody.size()> body;
+    std::array<LitPlace, kBody.size()> body;
     for (std::size_t i = 0; i < kBody.size(); ++i) {
         const auto& [height, side] = kBody[i];
-        body[i].at_ws_m = state_.feet_m + glm::dvec3(0.0, height, 0.0) + sideways(state_.yaw_rad) * side;
+        body[i].position_m = state_.feet_m + glm::dvec3(0.0, height, 0.0) + sideways(state_.yaw_rad) * side;
     }
     double lux = 0.0;
     for (const Lamp& lamp : level_.lamps) {
         std::array<float, kBody.size()> shares{};
-        level_.occluders.ask(light_item(lamp, poses_[lamp.node]), body, shares);
+        level_.occluders.ask(light_of(lamp), poses_[lamp.node], body, shares);
         for (std::size_t i = 0; i < body.size(); ++i)
-            lux += static_cast<double>(shares[i]) * lamp_lux(lamp, poses_[lamp.node], body[i].at_ws_m);
+            lux += static_cast<double>(shares[i]) * lamp_lux(lamp, poses_[lamp.node], body[i].position_m);
     }
     return std::min(lux / static_cast<double>(kBody.size()) / kFullLight_lx, 1.0);
 }

@@ -20,12 +20,12 @@ constexpr double kFovY_rad = 1.0, kNear_m = 0.05;
 const glm::dvec3 kSunAxis(0.0, 0.766044443118978, -0.642787609686539);
 constexpr double kSetsOver_rad = 0.1;  // the sun fades over its last 6 degrees
 
-bool held(const platform::Input& input, platform::Key key) {
+bool held(const Input& input, Key key) {
     const auto i = static_cast<std::size_t>(key);
     return input.down[i] || input.pressed[i];
 }
 
-double axis(const platform::Input& input, platform::Key minus, platform::Key plus) {
+double axis(const Input& input, Key minus, Key plus) {
     return (held(input, plus) ? 1.0 : 0.0) - (held(input, minus) ? 1.0 : 0.0);
 }
 
@@ -101,8 +101,7 @@ void GameSession::apply_sun(ecs::Registry& registry) {
     registry.patch<Light>(sun_, [&](Light& light) { light.intensity = sun_lux_ * above; });
 }
 
-GameInput to_game_input(const platform::Input& input, bool look) {
-    using platform::Key;
+GameInput to_game_input(const Input& input, bool look) {
     const auto pressed = [&](Key key) { return input.pressed[static_cast<std::size_t>(key)]; };
     return {.forward = axis(input, Key::s, Key::w),
             .right = axis(input, Key::a, Key::d),

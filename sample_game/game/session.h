@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/platform/context.h"
 #include "gnomon/registry.h"
+#include "gnomon/window.h"
 #include "sample_game/game/rules.h"
 #include "sample_game/support/scene/spawn_scene.h"
 
@@ -41,6 +41,6 @@ private:
 };
 
 /// Translates keys and mouse since the last poll. `look`: the mouse turns the head.
-GameInput to_game_input(const platform::Input& input, bool look);
+GameInput to_game_input(const Input& input, bool look);
 
 }  // namespace gnomon::game

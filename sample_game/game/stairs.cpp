@@ -4,8 +4,6 @@
 #include <glm/common.hpp>
 #include <map>
 
-#include "engine/math/aabb.h"
-
 namespace gnomon::game {
 
 std::vector<Solid> treads_of(const assets::Mesh& mesh, std::size_t node) {
@@ -17,7 +15,10 @@ std::vector<Solid> treads_of(const assets::Mesh& mesh, std::size_t node) {
         const bool level = a.y == 0.0 && b.y == 0.0;
         if (!level || !(a.z * b.x - a.x * b.z > 0.0)) continue;
         math::Aabb& tread = treads[static_cast<float>(corner[0].y)];
-        for (const glm::dvec3& point : corner) tread = math::extended(tread, point);
+        for (const glm::dvec3& point : corner) {
+            tread.min = glm::min(tread.min, point);
+            tread.max = glm::max(tread.max, point);
+        }
     }
     std::vector<Solid> solids;
     for (const auto& [height, tread] : treads)

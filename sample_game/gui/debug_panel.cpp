@@ -23,7 +23,7 @@ void show(const debug::ViewRow* view, const std::vector<std::string>& lights, de
     debug.view = lights.empty() ? nullptr : view;
     debug.layer.reset();
     const bool known = std::find(lights.begin(), lights.end(), debug.light) != lights.end();
-    const bool any = view && view->scope == debug::ViewScope::one_or_all && debug.light.empty();
+    const bool any = view && !view->needs_light && debug.light.empty();
     if (!lights.empty() && !known && !any) debug.light = lights.front();
 }
 
@@ -45,7 +45,7 @@ void draw_light_choice(const std::vector<std::string>& lights, debug::Request& d
         debug.light = light;
         debug.layer.reset();
     };
-    if (debug.view->scope == debug::ViewScope::one_or_all) choose({}, "all");
+    if (!debug.view->needs_light) choose({}, "all");
     for (const std::string& light : lights) choose(light, light.c_str());
     ImGui::EndCombo();
 }

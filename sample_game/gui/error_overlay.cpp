@@ -1,11 +1,11 @@
 #include "sample_game/gui/error_overlay.h"
 
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -107,9 +107,11 @@ void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec
     words.add(frozen.chosen() ? "  each pixel's worst" : "> each pixel's worst", frozen.chosen() ? kInk : kChosen);
     for (std::size_t i = 0; i < frozen.lights().size(); ++i) {
         const JudgedLight& light = frozen.lights()[i];
-        const LightReport none, &of = light.index < report.lights.size() ? report.lights[light.index] : none;
+        const auto of = std::find_if(report.lights.begin(), report.lights.end(),
+                                     [&](const LightReport& other) { return other.entity == light.entity; });
         const bool chosen = frozen.chosen() == i;
-        words.add((chosen ? "> " : "  ") + figures(light, of), chosen ? kChosen : kInk);
+        words.add((chosen ? "> " : "  ") + figures(light, of == report.lights.end() ? LightReport{} : *of),
+                  chosen ? kChosen : kInk);
     }
     const float legend_px = ImGui::GetTextLineHeight() + 2.0f * kAir_px;
     const ImVec2 below = words.draw(size_px, legend_px);
@@ -118,30 +120,31 @@ void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec
 
 }  // namespace
 
+void ErrorLayer::forget() {
+    if (image_ != 0) glDeleteTextures(1, &image_);
+    image_ = 0;
+}
+
 void ErrorLayer::upload(const FrozenFrame& frozen) {
-    if (image_ && version_ == frozen.version()) return;
-    device_.destroy(image_);
+    if (image_ != 0 && version_ == frozen.version()) return;
+    forget();
     version_ = frozen.version();
-    image_ = device_
-                 .create_texture({.label = "shadow errors",
-                                  .format = gl::Format::srgb8_a8,
-                                  .width = frozen.size_px().x,
-                                  .height = frozen.size_px().y},
-                                 std::as_bytes(std::span(frozen.tints())))
-                 .handle;
+    const auto width = static_cast<GLsizei>(frozen.size_px().x), height = static_cast<GLsizei>(frozen.size_px().y);
+    glCreateTextures(GL_TEXTURE_2D, 1, &image_);
+    glTextureStorage2D(image_, 1, GL_SRGB8_ALPHA8, width, height);
+    glTextureSubImage2D(image_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, frozen.tints().data());
+    glObjectLabel(GL_TEXTURE, image_, -1, "shadow errors");
 }
 
 void ErrorLayer::draw(const FrozenFrame& frozen, const FrameReport& report, glm::vec2 size_px) {
     if (frozen.state() != FrozenFrame::State::shown || frozen.tints().empty()) {
-        device_.destroy(image_);
-        image_ = {};
+        forget();
         if (frozen.on()) draw_progress(frozen, size_px);
         return;
     }
     upload(frozen);
-    if (image_)  // without memory for it the figures are still there
-        ImGui::GetBackgroundDrawList()->AddImage(image_of(image_), {0.0f, 0.0f}, {size_px.x, size_px.y}, {0.0f, 1.0f},
-                                                 {1.0f, 0.0f});
+    ImGui::GetBackgroundDrawList()->AddImage(image_of(image_), {0.0f, 0.0f}, {size_px.x, size_px.y}, {0.0f, 1.0f},
+                                             {1.0f, 0.0f});
     draw_figures(frozen, report, size_px);
 }
 

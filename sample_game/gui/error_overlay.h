@@ -1,18 +1,17 @@
 #pragma once
+#include <cstdint>
 #include <glm/vec2.hpp>
 
-#include "engine/gl/device.h"
 #include "gnomon/frame.h"
-#include "sample_game/support/truth_comparison.h"
+#include "sample_game/inside/truth_comparison.h"
 
 namespace gnomon::game {
 
-/// The errors of a frozen frame, over its picture.
+/// The errors of a frozen frame, over its picture. Needs a current context only while errors are shown.
 class ErrorLayer {
 public:
-    /// Draws through `device`, which must outlive the layer.
-    explicit ErrorLayer(gl::Device& device) : device_(device) {}
-    ~ErrorLayer() { device_.destroy(image_); }
+    ErrorLayer() = default;
+    ~ErrorLayer() { forget(); }
     ErrorLayer(const ErrorLayer&) = delete;
     ErrorLayer& operator=(const ErrorLayer&) = delete;
 
@@ -22,9 +21,9 @@ public:
 
 private:
     void upload(const FrozenFrame& frozen);
+    void forget();
 
-    gl::Device& device_;
-    gl::TextureHandle image_{};
+    unsigned image_ = 0;  // texture of the tints
     std::uint64_t version_ = 0;
 };
 

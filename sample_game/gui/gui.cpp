@@ -9,13 +9,13 @@ constexpr float kLeastStep_s = 1.0e-4f;  // ImGui wants time to pass
 
 /// Keys that edit a line of text.
 struct EditKey {
-    platform::Key key;
+    Key key;
     ImGuiKey imgui;
 };
-constexpr EditKey kEditKeys[] = {{platform::Key::left, ImGuiKey_LeftArrow},
-                                 {platform::Key::right, ImGuiKey_RightArrow},
-                                 {platform::Key::backspace, ImGuiKey_Backspace},
-                                 {platform::Key::enter, ImGuiKey_Enter}};
+constexpr EditKey kEditKeys[] = {{Key::left, ImGuiKey_LeftArrow},
+                                 {Key::right, ImGuiKey_RightArrow},
+                                 {Key::backspace, ImGuiKey_Backspace},
+                                 {Key::enter, ImGuiKey_Enter}};
 
 /// ImGui took keys by tables of the application's own before it took events.
 #if IMGUI_VERSION_NUM >= 18700
@@ -27,7 +27,7 @@ void set_key(ImGuiIO& io, ImGuiKey key, bool down) {
 }
 #endif
 
-void feed(ImGuiIO& io, const platform::Input& input) {
+void feed(ImGuiIO& io, const Input& input) {
     io.MousePos = {static_cast<float>(input.mouse_x), static_cast<float>(input.mouse_y)};
     io.MouseDown[0] = input.mouse_button || input.mouse_pressed;
     for (const EditKey& edit : kEditKeys) {
@@ -39,14 +39,19 @@ void feed(ImGuiIO& io, const platform::Input& input) {
 
 }  // namespace
 
-Result<std::unique_ptr<Gui>> Gui::create(gl::Device& device) {
-    std::unique_ptr<Gui> gui(new Gui(device));
-    gui->context_.reset(ImGui::CreateContext());
-    ImGui::SetCurrentContext(gui->context_.get());
+Gui::Gui() : context_(ImGui::CreateContext()) {
+    ImGui::SetCurrentContext(context_.get());
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = io.LogFilename = nullptr;  // the game leaves no files behind
     ImGui::StyleColorsDark();
-    auto overlay = Overlay::create(device);
+    unsigned char* texels = nullptr;
+    int width = 0, height = 0;
+    io.Fonts->GetTexDataAsRGBA32(&texels, &width, &height);  // ImGui lays out by the font that this makes
+}
+
+Result<std::unique_ptr<Gui>> Gui::create() {
+    auto gui = std::make_unique<Gui>();
+    auto overlay = Overlay::create();
     if (!overlay) return overlay.error();
     gui->overlay_ = std::move(overlay).value();
     return gui;
@@ -54,10 +59,8 @@ Result<std::unique_ptr<Gui>> Gui::create(gl::Device& device) {
 
 Gui::~Gui() = default;
 
-void Gui::draw(GameWorld& world, FrameSystem& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
-               bool present) {
-    const gl::TargetHandle target = frame.picture_target();
-    if (!target) return;
+void Gui::lay_out(GameWorld& world, const FrameReport& report, std::span<const debug::Label> labels, glm::uvec2 size_px,
+                  const Input* input, double dt_s) {
     ImGui::SetCurrentContext(context_.get());
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
@@ -65,23 +68,23 @@ void Gui::draw(GameWorld& world, FrameSystem& frame, glm::uvec2 size_px, const p
     if (input && panel.shown) feed(io, *input);
     ImGui::NewFrame();
     if (world.game) draw_game_overlay(world.game->state(), glm::vec2(size_px), !panel.shown);
-    errors_.draw(frozen, frame.report(), glm::vec2(size_px));
-    draw_debug_labels(frame.debug_labels(), glm::vec2(size_px));
+    errors_.draw(frozen, report, glm::vec2(size_px));
+    draw_debug_labels(labels, glm::vec2(size_px));
     panel.debug.area = {};
     if (panel.shown) {
-        panel.graph.add(frame.report());
-        note_contract(world, frame.report(), panel.contract);
-        draw_light_panel(world, frame.report(), size_px, frozen, panel);
+        panel.graph.add(report);
+        note_contract(world, report, panel.contract);
+        draw_light_panel(world, report, size_px, frozen, panel);
     } else {
         panel.graph.clear();  // it would have a gap that it does not show
     }
     ImGui::Render();
+}
 
-    list_.clear();
-    overlay_->record(*ImGui::GetDrawData(), target, size_px, list_);
-    const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px.x), static_cast<std::int32_t>(size_px.y)};
-    if (present) list_.add(gl::Blit{target, {}, all, all});
-    device_.submit(list_);
+void Gui::draw(GameWorld& world, const Frame& frame, glm::uvec2 size_px, const Input* input, double dt_s) {
+    if (!overlay_ || frame.picture_texture() == 0) return;
+    lay_out(world, frame.report(), frame.debug_labels(), size_px, input, dt_s);
+    overlay_->draw(*ImGui::GetDrawData(), frame.picture_texture(), size_px);
 }
 
 }  // namespace gnomon::game

@@ -7,15 +7,15 @@
 #include <span>
 #include <string>
 
-#include "engine/gl/device.h"
-#include "engine/platform/context.h"
+#include "gnomon/frame.h"
 #include "gnomon/result.h"
+#include "gnomon/window.h"
 #include "sample_game/game/game_world.h"
 #include "sample_game/gui/accuracy_cost_curve.h"
 #include "sample_game/gui/error_overlay.h"
 #include "sample_game/gui/imgui_renderer.h"
 #include "sample_game/gui/light_history.h"
-#include "sample_game/support/truth_comparison.h"
+#include "sample_game/inside/truth_comparison.h"
 
 namespace gnomon::game {
 
@@ -43,16 +43,20 @@ struct PanelState {
 /// of lights (F1).
 class Gui {
 public:
-    /// Creates the overlay. `device` must outlive it. Error: rule "gui.device".
-    static Result<std::unique_ptr<Gui>> create(gl::Device& device);
+    /// Creates the overlay in the current context. Error: rule "gui.device".
+    static Result<std::unique_ptr<Gui>> create();
+    /// Creates an overlay that is laid out and never drawn, without a context.
+    Gui();
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// Draws over the frame's picture and, if `present`, copies it to the window. The panel changes the world's
-    /// LightShadow components at once; they take effect with the next frame. `input`: null without a window.
-    void draw(GameWorld& world, FrameSystem& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
-              bool present);
+    /// Lays out what is shown over a picture. The panel changes the world's LightShadow components at once; they take
+    /// effect with the next frame. `input`: null without a window.
+    void lay_out(GameWorld& world, const FrameReport& report, std::span<const debug::Label> labels, glm::uvec2 size_px,
+                 const Input* input, double dt_s);
+    /// Lays it out, and draws it over the frame's picture.
+    void draw(GameWorld& world, const Frame& frame, glm::uvec2 size_px, const Input* input, double dt_s);
 
     PanelState panel;
     FrozenFrame frozen;
@@ -61,13 +65,10 @@ private:
     struct Closer {
         void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
     };
-    explicit Gui(gl::Device& device) : device_(device), errors_(device) {}
 
-    gl::Device& device_;
     std::unique_ptr<ImGuiContext, Closer> context_;
-    std::unique_ptr<Overlay> overlay_;
+    std::unique_ptr<Overlay> overlay_;  // null: never drawn
     ErrorLayer errors_;
-    gl::CommandList list_;
 };
 
 /// Draws the game's meters and, with `words`, its state in large letters unless it is being played.

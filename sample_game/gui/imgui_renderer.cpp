@@ -1,17 +1,22 @@
 #include "sample_game/gui/imgui_renderer.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "gnomon/box.h"
 
 namespace gnomon::game {
 namespace {
 
-/// The device's mesh layout, filled otherwise: x and y on the clip square and alpha; colour; texture coordinates.
+/// x and y on the clip square, and alpha; linear colour; texture coordinates.
 struct OverlayVertex {
     glm::vec3 position_and_alpha, colour;
     glm::vec2 uv;
@@ -62,9 +67,7 @@ To id_cast(From id) {
         return static_cast<To>(id);
 }
 
-gl::TextureHandle texture_of(ImTextureID image) {
-    return {static_cast<decltype(gl::TextureHandle::id)>(id_cast<std::uintptr_t>(image))};
-}
+GLuint texture_of(ImTextureID image) { return static_cast<GLuint>(id_cast<std::uintptr_t>(image)); }
 
 /// Converts ImGui's clip rectangle, y down, to a scissor, y up. Without width or height: nothing to draw.
 gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
@@ -76,86 +79,136 @@ gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
     return {left, static_cast<std::int32_t>(size_px.y) - bottom, right - left, bottom - top};
 }
 
+/// Returns 0 if the program does not link.
+GLuint link_program() {
+    const GLuint program = glCreateProgram();
+    for (const auto& [kind, text] :
+         {std::pair(GL_VERTEX_SHADER, kVertexSource), {GL_FRAGMENT_SHADER, kFragmentSource}}) {
+        const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
+        glShaderSource(shader, 1, &text, nullptr);
+        glCompileShader(shader);
+        glAttachShader(program, shader);
+        glDeleteShader(shader);
+    }
+    glLinkProgram(program);
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return program;
+    glDeleteProgram(program);
+    return 0;
+}
+
+/// Makes a vertex array that reads OverlayVertex and 32 bit indices.
+GLuint make_array(GLuint vertices, GLuint indices) {
+    GLuint array = 0;
+    glCreateVertexArrays(1, &array);
+    glVertexArrayVertexBuffer(array, 0, vertices, 0, sizeof(OverlayVertex));
+    glVertexArrayElementBuffer(array, indices);
+    const auto add = [&](GLuint location, GLint numbers, std::size_t offset) {
+        glEnableVertexArrayAttrib(array, location);
+        glVertexArrayAttribFormat(array, location, numbers, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+        glVertexArrayAttribBinding(array, location, 0);
+    };
+    add(0, 3, offsetof(OverlayVertex, position_and_alpha));
+    add(1, 3, offsetof(OverlayVertex, colour));
+    add(2, 2, offsetof(OverlayVertex, uv));
+    return array;
+}
+
+void label(GLenum kind, GLuint name, const char* text) { glObjectLabel(kind, name, -1, text); }
+
 }  // namespace
 
-ImTextureID image_of(gl::TextureHandle texture) {
-    return id_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id));
-}
-
-Overlay::Overlay(gl::Device& device)
-    : device_(device),
-      vertices_(device, "overlay vertices"),
-      indices_(device, "overlay indices"),
-      items_(device, "overlay items") {}
+ImTextureID image_of(unsigned texture) { return id_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)); }
 
 Overlay::~Overlay() {
-    device_.destroy(program_);
-    device_.destroy(sampler_);
-    device_.destroy(font_);
+    glDeleteVertexArrays(1, &array_);
+    glDeleteBuffers(1, &vertices_);
+    glDeleteBuffers(1, &indices_);
+    glDeleteFramebuffers(1, &framebuffer_);
+    glDeleteProgram(program_);
+    glDeleteSamplers(1, &sampler_);
+    glDeleteTextures(1, &font_);
 }
 
-Result<std::unique_ptr<Overlay>> Overlay::create(gl::Device& device) {
-    std::unique_ptr<Overlay> overlay(new Overlay(device));
+Result<std::unique_ptr<Overlay>> Overlay::create() {
+    std::unique_ptr<Overlay> overlay(new Overlay());
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
-    const std::size_t bytes = std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    const gl::TextureDesc font{.label = "overlay font",
-                               .format = gl::Format::rgba8,
-                               .width = static_cast<std::uint32_t>(width),
-                               .height = static_cast<std::uint32_t>(height)};
-    overlay->font_ = device.create_texture(font, std::as_bytes(std::span(texels, bytes))).handle;
+    glCreateTextures(GL_TEXTURE_2D, 1, &overlay->font_);
+    glTextureStorage2D(overlay->font_, 1, GL_RGBA8, width, height);
+    glTextureSubImage2D(overlay->font_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    label(GL_TEXTURE, overlay->font_, "overlay font");
     ImGui::GetIO().Fonts->SetTexID(image_of(overlay->font_));
-    overlay->sampler_ = device.create_sampler({.label = "overlay font", .linear = true}).handle;
-    overlay->program_ =
-        device.create_program({.label = "overlay", .vertex = kVertexSource, .fragment = kFragmentSource}).handle;
-    if (!overlay->font_ || !overlay->sampler_ || !overlay->program_)
-        return Error{.message = "the device could not make the panels", .rule = "gui.device"};
+    glCreateSamplers(1, &overlay->sampler_);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        glSamplerParameteri(overlay->sampler_, axis, GL_CLAMP_TO_EDGE);
+    for (const GLenum scale : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glSamplerParameteri(overlay->sampler_, scale, GL_LINEAR);
+    overlay->program_ = link_program();
+    glCreateFramebuffers(1, &overlay->framebuffer_);
+    glCreateBuffers(1, &overlay->vertices_);
+    glCreateBuffers(1, &overlay->indices_);
+    label(GL_BUFFER, overlay->vertices_, "overlay vertices");
+    label(GL_BUFFER, overlay->indices_, "overlay indices");
+    overlay->array_ = make_array(overlay->vertices_, overlay->indices_);
+    if (overlay->program_ == 0) return Error{.message = "the device could not make the panels", .rule = "gui.device"};
+    label(GL_PROGRAM, overlay->program_, "overlay");
     return overlay;
 }
 
-bool Overlay::reserve(const ImDrawData& data) {
-    return vertices_.reserve(sizeof(OverlayVertex) * static_cast<std::size_t>(data.TotalVtxCount)) &&
-           indices_.reserve(sizeof(std::uint32_t) * static_cast<std::size_t>(data.TotalIdxCount)) &&
-           items_.reserve(sizeof(glm::uvec2));
-}
-
-void Overlay::record(const ImDrawData& data, gl::TargetHandle target, glm::uvec2 size_px, gl::CommandList& list) {
-    if (data.TotalIdxCount <= 0 || !target || !reserve(data)) return;
+void Overlay::upload(const ImDrawData& data) {
     std::vector<OverlayVertex> vertices;
     std::vector<std::uint32_t> indices;
     // An array in ImGui to 1.89, an ImVector in later ones; not empty, since there are indices.
-    const std::span draws(&data.CmdLists[0], static_cast<std::size_t>(data.CmdListsCount));
-    for (const ImDrawList* draw : draws) {
-        for (const ImDrawVert& v : draw->VtxBuffer) vertices.push_back(converted(v, data));
-        for (const ImDrawIdx index : draw->IdxBuffer) indices.push_back(index);
+    for (const ImDrawList* list : std::span(&data.CmdLists[0], static_cast<std::size_t>(data.CmdListsCount))) {
+        for (const ImDrawVert& v : list->VtxBuffer) vertices.push_back(converted(v, data));
+        for (const ImDrawIdx index : list->IdxBuffer) indices.push_back(index);
     }
-    const std::array<glm::uvec2, 1> item{glm::uvec2(0u)};
-    list.add(gl::BeginGroup{"overlay"});
-    list.update(vertices_.handle(), 0, std::span<const OverlayVertex>(vertices));
-    list.update(indices_.handle(), 0, std::span<const std::uint32_t>(indices));
-    list.update(items_.handle(), 0, std::span<const glm::uvec2>(item));
-    list.add(
-        gl::BeginPass{.target = target,
-                      .viewport = {0, 0, static_cast<std::int32_t>(size_px.x), static_cast<std::int32_t>(size_px.y)}});
-    list.add(gl::SetPipeline{{.program = program_, .blend = gl::Blend::alpha}});
-    list.add(gl::BindMeshes{vertices_.handle(), indices_.handle(), items_.handle()});
-    std::uint32_t first_index = 0;
-    std::int32_t first_vertex = 0;
-    for (const ImDrawList* draw : draws) {
-        for (const ImDrawCmd& command : draw->CmdBuffer) {
+    const auto fill = [](GLuint buffer, const auto& items) {
+        glNamedBufferData(buffer, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])), items.data(),
+                          GL_STREAM_DRAW);
+    };
+    fill(vertices_, vertices);
+    fill(indices_, indices);
+}
+
+void Overlay::draw(const ImDrawData& data, unsigned picture, glm::uvec2 size_px) {
+    if (data.TotalIdxCount <= 0) return;
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "overlay");
+    upload(data);
+    glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, picture, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
+    glViewport(0, 0, static_cast<GLsizei>(size_px.x), static_cast<GLsizei>(size_px.y));
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_SCISSOR_TEST);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glUseProgram(program_);
+    glBindVertexArray(array_);
+    glBindSampler(0, sampler_);
+    std::uintptr_t first_index = 0;
+    GLint first_vertex = 0;
+    for (const ImDrawList* list : std::span(&data.CmdLists[0], static_cast<std::size_t>(data.CmdListsCount))) {
+        for (const ImDrawCmd& command : list->CmdBuffer) {
             const gl::Rect clip = scissor(command.ClipRect, size_px);
             if (command.UserCallback || clip.width <= 0 || clip.height <= 0) continue;
-            list.add(gl::BindTexture{0, texture_of(command.GetTexID()), sampler_});
-            list.add(gl::SetScissor{clip});
-            list.add(gl::DrawMeshes{first_index + command.IdxOffset, command.ElemCount,
-                                    first_vertex + static_cast<std::int32_t>(command.VtxOffset), 0, 1});
+            glBindTextureUnit(0, texture_of(command.GetTexID()));
+            glScissor(clip.x, clip.y, clip.width, clip.height);
+            glDrawElementsBaseVertex(
+                GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_INT,
+                reinterpret_cast<const void*>((first_index + command.IdxOffset) * sizeof(std::uint32_t)),
+                first_vertex + static_cast<GLint>(command.VtxOffset));
         }
-        first_index += static_cast<std::uint32_t>(draw->IdxBuffer.Size);
-        first_vertex += draw->VtxBuffer.Size;
+        first_index += static_cast<std::uintptr_t>(list->IdxBuffer.Size);
+        first_vertex += list->VtxBuffer.Size;
     }
-    list.add(gl::EndPass{});
-    list.add(gl::EndGroup{});
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glPopDebugGroup();
 }
 
 }  // namespace gnomon::game

@@ -1,40 +1,38 @@
 #pragma once
 #include <imgui.h>
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <memory>
 
-#include "engine/gl/device.h"
 #include "gnomon/result.h"
-#include "systems/growing_buffer.h"
 
 namespace gnomon::game {
 
-/// Returns ImGui's name for a texture of the device, rgba8 or srgb8_a8.
-ImTextureID image_of(gl::TextureHandle texture);
+/// Returns ImGui's name for a texture of the current context.
+ImTextureID image_of(unsigned texture);
 
-/// Draws Dear ImGui's lists through the device, so that panels look alike in a window, without one and in screenshots.
+/// Draws Dear ImGui's lists into a picture of Gnomon's, so that panels look alike in a window, without one and in
+/// screenshots. An example of a program's own OpenGL over Frame::picture_texture(): ImGui's own backend writes colours
+/// as they are, and this picture encodes them.
 class Overlay {
 public:
-    /// Takes the font of the current ImGui context. `device` must outlive the overlay. Error: rule "gui.device".
-    static Result<std::unique_ptr<Overlay>> create(gl::Device& device);
+    /// Takes the font of the current ImGui context. The OpenGL context must be current in every call. Error: rule
+    /// "gui.device".
+    static Result<std::unique_ptr<Overlay>> create();
     ~Overlay();
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
-    /// Records `data` over the picture in `target`, which encodes sRGB and is `size_px` large. Records nothing if the
-    /// device has no memory for it.
-    void record(const ImDrawData& data, gl::TargetHandle target, glm::uvec2 size_px, gl::CommandList& list);
+    /// Draws `data` over `picture`, a GL_TEXTURE_2D of GL_SRGB8_ALPHA8, `size_px` large. Leaves what it draws with
+    /// bound: Gnomon needs no state.
+    void draw(const ImDrawData& data, unsigned picture, glm::uvec2 size_px);
 
 private:
-    explicit Overlay(gl::Device& device);
-    bool reserve(const ImDrawData& data);
+    Overlay() = default;
+    void upload(const ImDrawData& data);
 
-    gl::Device& device_;
-    gl::TextureHandle font_{};
-    gl::SamplerHandle sampler_{};
-    gl::ProgramHandle program_{};
-    GrowingBuffer vertices_, indices_, items_;
+    unsigned font_ = 0, sampler_ = 0, program_ = 0, framebuffer_ = 0, array_ = 0, vertices_ = 0, indices_ = 0;
 };
 
 }  // namespace gnomon::game

@@ -7,7 +7,6 @@
 
 #include "sample_game/gui/gui.h"
 #include "sample_game/gui/line_plot.h"
-#include "systems/shadow/request/accuracy_target.h"
 
 namespace gnomon::game {
 namespace {
@@ -37,7 +36,7 @@ std::string error_words(const LightSample& now) {
     return text;
 }
 
-float said_px(const LightShadow& shadow) { return static_cast<float>(shadow::target_error_px(shadow)); }
+float said_px(const LightShadow& shadow) { return shadow.max_error_px > 0.0f ? shadow.max_error_px : 1.0f; }
 
 std::optional<float> contract_of(const GameWorld& world, const std::string& name) {
     for (const NamedEntity& light : world.scene.lights)

@@ -10,7 +10,6 @@
 #include "sample_game/gui/gui.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/setting_uses.h"
-#include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::game {
 namespace {
@@ -166,7 +165,7 @@ void draw_why(const FrameReport& report) {
 /// Returns the filter's name and, if another was expected, the reason.
 std::string filter_words(const FilterReport& filter) {
     if (filter.filter == ShadowFilter::automatic) return "-";
-    const std::string name(shadow::filter_row(filter.filter).name);
+    const std::string name(to_text(filter.filter));
     return filter.reason == Reason::none ? name : name + " (" + reason_code(filter.reason) + ")";
 }
 

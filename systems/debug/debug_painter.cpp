@@ -40,7 +40,7 @@ gl::ProgramHandle DebugPainter::program(std::string_view vertex, std::string_vie
 bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
                                gl::TargetHandle target, gl::CommandList& list) {
     if (!raw_) raw_ = device_.create_sampler({.label = "debug raw"}).handle;
-    const gl::ProgramHandle used = program("common/fullscreen.vert", row.fragment);
+    const gl::ProgramHandle used = program("common/fullscreen.vert", row.drawer->fragment);
     if (!raw_ || !used || !block_.reserve(drawing.block.size())) return false;
     list.update(block_.handle(), 0, std::span<const std::byte>(drawing.block));
     list.add(gl::BeginPass{.target = target, .viewport = area});
@@ -57,7 +57,7 @@ bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const
 bool DebugPainter::record_lines(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
                                 const lighting::LightingSystem& picture, gl::CommandList& list) {
     if (drawing.lines.empty()) return true;
-    const gl::ProgramHandle used = program("debug/lines.vert", row.fragment);
+    const gl::ProgramHandle used = program("debug/lines.vert", row.drawer->fragment);
     if (!used || !lines_.reserve(drawing.lines.size() * sizeof(LineVertex))) return false;
     const gl::Rect whole = within({}, picture.size_px());
     list.update(lines_.handle(), 0, std::span<const LineVertex>(drawing.lines));
@@ -73,7 +73,7 @@ bool DebugPainter::record_lines(const Drawing& drawing, const ViewRow& row, cons
 
 bool DebugPainter::record_medium(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
                                  const Subject& subject, gl::CommandList& list) {
-    switch (row.medium) {
+    switch (row.drawer->medium) {
         case ViewMedium::flat:
             return record_flat(drawing, row, area, subject.picture.picture_target(), list);
         case ViewMedium::lines:
@@ -83,7 +83,7 @@ bool DebugPainter::record_medium(const Drawing& drawing, const ViewRow& row, con
     }
     if (!block_.reserve(drawing.block.size())) return false;
     list.update(block_.handle(), 0, std::span<const std::byte>(drawing.block));
-    return subject.picture.record_lookups({subject.frame.inputs.front(), drawing.light, row.fragment, area,
+    return subject.picture.record_lookups({subject.frame.inputs.front(), drawing.light, row.drawer->fragment, area,
                                            block_.handle(), static_cast<std::uint32_t>(drawing.block.size())},
                                           subject.gpu, list);
 }
@@ -95,7 +95,7 @@ void DebugPainter::record(const Request& request, const Subject& subject, gl::Co
     const ViewRow& row = *request.view;
     const gl::Rect area = within(request.area, subject.picture.size_px());
     if (area.width <= 0 || area.height <= 0) return;
-    std::optional<Drawing> drawing = row.draw({subject.scene, subject.frame, request, area, subject.fitted});
+    std::optional<Drawing> drawing = row.drawer->draw({subject.scene, subject.frame, request, area, subject.fitted});
     if (!drawing) return;
     // The list is truncated again if the device lacks something.
     const std::size_t commands = list.commands.size(), bytes = list.bytes.size();

@@ -26,9 +26,6 @@ struct ViewInput {
     const ConsumerItem* fitted = nullptr;  // camera that shadows are fitted to, if it is not the picture's
 };
 
-/// Use of Request::light by a view.
-enum class ViewScope : std::uint8_t { one_light, one_or_all };
-
 /// Kind of drawing.
 enum class ViewMedium : std::uint8_t {
     flat,   // one triangle over the area, by common/fullscreen.vert and the row's shader
@@ -56,17 +53,13 @@ struct Drawing {
 /// Draws a view. Pure: same input, same drawing. Empty: nothing to show.
 using ViewFunction = std::optional<Drawing> (*)(const ViewInput& input);
 
-struct ViewRow {
-    std::string_view name;  // --debug NAME, or NAME:LIGHT
-    ViewScope scope;
+/// What draws a view (ViewRow). A new view needs systems/debug/x.cpp, shaders/debug/x.frag and a row in
+/// debug_view.cpp.
+struct ViewDrawer {
     ViewMedium medium;
-    std::string_view meaning;   // one line
     std::string_view fragment;  // path under shaders/
     ViewFunction draw;
 };
-
-/// Lists all views. A new view needs systems/debug/x.cpp, shaders/debug/x.frag and a row here.
-std::span<const ViewRow> view_table();
 
 std::optional<Drawing> draw_cascades(const ViewInput& input);
 std::optional<Drawing> draw_texels(const ViewInput& input);

@@ -17,13 +17,9 @@ namespace gnomon {
 
 inline bool reads_depths(const shadow::FilterRow& filter) { return filter.reading == shadow::MapReading::depths; }
 
-inline bool reads_triangles(const shadow::FilterRow& filter) {
-    return filter.storage.triangle_ids;
-}
+inline bool reads_triangles(const shadow::FilterRow& filter) { return filter.storage.triangle_ids; }
 
-inline bool reads_moments(const shadow::FilterRow& filter) {
-    return filter.moments;
-}
+inline bool reads_moments(const shadow::FilterRow& filter) { return filter.moments; }
 
 /// Filters that read a map, and nothing else.
 inline std::vector<shadow::FilterRow> map_filters() {
@@ -42,17 +38,22 @@ inline std::vector<shadow::ShaderKey> all_rows() {
         for (const shadow::FilterRow& filter : map_filters())
             for (const bool fades : {false, true})
                 if (!fades || kind.kind != LightKind::point)  // a cube has nothing to fade into
-                    rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, fades, reads_depths(filter)});
+                    rows.push_back(
+                        {kind.define, kind.file, filter.file, filter.reach_texel, fades, reads_depths(filter)});
         for (const shadow::FilterRow& filter : map_filters())
-            rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, false, reads_depths(filter), true});
+            rows.push_back(
+                {kind.define, kind.file, filter.file, filter.reach_texel, false, reads_depths(filter), true});
     }
-    const shadow::LightKindRow &sun = shadow::light_kind_row(LightKind::directional), &point = shadow::light_kind_row(LightKind::point);
+    const shadow::LightKindRow &sun = shadow::light_kind_row(LightKind::directional),
+                               &point = shadow::light_kind_row(LightKind::point);
     for (const shadow::FilterRow& filter : map_filters())
         for (const shadow::LightKindRow* kind : {&sun, &point})
-            rows.push_back({kind->define, shadow::kPerspectiveFile, filter.file, filter.reach_texel, false, reads_depths(filter)});
+            rows.push_back(
+                {kind->define, shadow::kPerspectiveFile, filter.file, filter.reach_texel, false, reads_depths(filter)});
     for (const shadow::FilterRow& filter : map_filters())
         for (const bool fades : {false, true})
-            rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
+            rows.push_back(
+                {sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
     for (shadow::ShaderKey& row : rows)
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
             if (filter.file != row.filter_file) continue;
@@ -75,7 +76,13 @@ inline std::vector<shadow::ShaderKey> all_rows() {
             for (const bool masks : {false, true})
                 for (const bool sheets : {false, true})
                     if (filter.rays) {
-                        rows.push_back({.kind_define = kind.define, .kind_file = kind.file, .filter_file = filter.file, .depths = sheets, .sheets = sheets, .rays = true, .ray_masks = masks});
+                        rows.push_back({.kind_define = kind.define,
+                                        .kind_file = kind.file,
+                                        .filter_file = filter.file,
+                                        .depths = sheets,
+                                        .sheets = sheets,
+                                        .rays = true,
+                                        .ray_masks = masks});
                         if (kind.kind != LightKind::point) continue;
                         rows.push_back(rows.back());
                         rows.back().kind_file = shadow::kPerspectiveFile;
@@ -83,8 +90,8 @@ inline std::vector<shadow::ShaderKey> all_rows() {
     return rows;
 }
 
-/// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options. All of
-/// them for "bias", which asks most of a lookup; for other views one per kind.
+/// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options. All
+/// of them for "bias", which asks most of a lookup; for other views one per kind.
 inline std::vector<shadow::ShaderKey> lookup_rows(std::string_view view) {
     std::vector<shadow::ShaderKey> kept, known;
     for (const shadow::ShaderKey& row : all_rows()) {
@@ -108,8 +115,10 @@ inline std::vector<gl::ProgramDesc> all_programs() {
     {
         lighting::LightPrograms lighting(device);
         const auto add = [&](gl::ProgramHandle handle) {
-            if (const gl::ProgramDesc* desc = device.program(handle)) programs.push_back(*desc);
-            else programs.push_back({.label = "not expanded"});
+            if (const gl::ProgramDesc* desc = device.program(handle))
+                programs.push_back(*desc);
+            else
+                programs.push_back({.label = "not expanded"});
         };
         for (const bool coloured : {false, true}) {
             lighting.set_coloured(coloured);
@@ -134,8 +143,9 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             }
         }
         for (const debug::ViewRow& view : debug::view_table())
-            if (view.medium == debug::ViewMedium::lookups)
-                for (const shadow::ShaderKey& row : lookup_rows(view.name)) add(lighting.lookups(row, view.fragment));
+            if (view.drawer->medium == debug::ViewMedium::lookups)
+                for (const shadow::ShaderKey& row : lookup_rows(view.name))
+                    add(lighting.lookups(row, view.drawer->fragment));
     }
     {
         using Source = shadow::PrefilterPass::Source;
@@ -158,15 +168,17 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         const auto vertex = gl::expand_shader(shader_files(), "shadow/passes/depth/depth.vert", defines);
         const auto fragment = gl::expand_shader(shader_files(), "shadow/passes/depth/depth.frag", defines);
         if (vertex && fragment)
-            programs.push_back({std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : "") + (coloured ? ", coloured" : ""), vertex.value(),
-                                fragment.value()});
+            programs.push_back({std::string(masked ? "depth masked" : "depth opaque") +
+                                    (triangles ? ", triangles" : "") + (coloured ? ", coloured" : ""),
+                                vertex.value(), fragment.value()});
     }
     for (const char* file : {"lighting/post/depth_histogram.comp", "lighting/post/exposure.comp"})
         if (const auto compute = gl::expand_shader(shader_files(), file, {}))
             programs.push_back({.label = file, .compute = compute.value()});
     for (const char* define : {"", "CUBE 1", "OF_LEVEL 1"}) {
         const std::vector<std::string> defines(*define ? 1 : 0, define);
-        if (const auto compute = gl::expand_shader(shader_files(), "shadow/passes/bounds/occluder_pyramid.comp", defines))
+        if (const auto compute =
+                gl::expand_shader(shader_files(), "shadow/passes/bounds/occluder_pyramid.comp", defines))
             programs.push_back({.label = std::string("ends ") + define, .compute = compute.value()});
     }
     const auto add_view = [&](std::string_view vertex_file, std::string_view fragment_file) {
@@ -176,7 +188,7 @@ inline std::vector<gl::ProgramDesc> all_programs() {
     };
     add_view("debug/lines.vert", "debug/lines.frag");
     for (const debug::ViewRow& view : debug::view_table())
-        if (view.medium == debug::ViewMedium::flat) add_view("common/fullscreen.vert", view.fragment);
+        if (view.drawer->medium == debug::ViewMedium::flat) add_view("common/fullscreen.vert", view.drawer->fragment);
     return programs;
 }
 

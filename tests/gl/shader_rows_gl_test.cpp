@@ -19,13 +19,13 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto rows_of = [&](std::size_t some) {  // all but cubes fade; perspective and warped suns, aimed points
         return kinds * 2 * some + (kinds - 1) * some + 4 * some;
     };
-    const auto prefiltered =
-        static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
+    const auto prefiltered = static_cast<std::size_t>(
+        std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
     const auto by_triangles = static_cast<std::size_t>(
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_triangles));
     constexpr std::size_t kMaskedOrNot = 2;
-    // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an output; blended
-    // surfaces, verdicts and rays have their own, masked or not.
+    // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an
+    // output; blended surfaces, verdicts and rays have their own, masked or not.
     const std::size_t by_rays = (kinds + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters);
     const std::size_t with_sheets = 2 * kinds + 3 * by_rays;
     constexpr std::size_t kOutputs = 3, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
@@ -35,17 +35,18 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays;
     std::size_t views_programs = 1;  // lines
     for (const debug::ViewRow& view : debug::view_table()) {
-        if (view.medium == debug::ViewMedium::flat) ++views_programs;
-        if (view.medium != debug::ViewMedium::lookups) continue;
+        if (view.drawer->medium == debug::ViewMedium::flat) ++views_programs;
+        if (view.drawer->medium != debug::ViewMedium::lookups) continue;
         EXPECT_GT(lookup_rows(view.name).size(), kinds);  // perspective and warped suns
         views_programs += lookup_rows(view.name).size();
     }
-    ASSERT_EQ(programs.size(), rows * kOutputs + with_sheets + kCommon + kDepth + kCompute + kBlur + kSources * prefiltered +
-                                   views_programs);
+    ASSERT_EQ(programs.size(), rows * kOutputs + with_sheets + kCommon + kDepth + kCompute + kBlur +
+                                   kSources * prefiltered + views_programs);
     std::set<std::string> sources;
     for (const gl::ProgramDesc& desc : programs) {
         ASSERT_NE(desc.fragment + desc.compute, "") << desc.label;
-        EXPECT_TRUE(sources.insert(desc.vertex + desc.fragment + desc.compute).second) << desc.label << " equals another program";
+        EXPECT_TRUE(sources.insert(desc.vertex + desc.fragment + desc.compute).second)
+            << desc.label << " equals another program";
         const auto made = device().create_program(desc);
         EXPECT_TRUE(made) << desc.label << ": " << made.log;
         EXPECT_EQ(made.log, "") << desc.label;

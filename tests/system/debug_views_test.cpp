@@ -95,7 +95,7 @@ TEST_F(DebugViews, AViewOfLookupsBindsWhatTheLightsOwnPassDoesAndBlendsOverThePi
     step();
     const gl::CommandList plain = frame->commands();
     for (const debug::ViewRow& row : debug::view_table()) {
-        if (row.medium != debug::ViewMedium::lookups) continue;
+        if (row.drawer->medium != debug::ViewMedium::lookups) continue;
         SCOPED_TRACE(row.name);
         settings.debug = {.view = &row, .light = "bulb", .area = {10, 20, 100, 50}};
         step();

@@ -21,13 +21,11 @@ unsigned id_of(const PanelHand::Label& label) {
 }  // namespace
 
 void PanelHand::show(double x_px, double y_px, bool down) {
-    platform::Input input;
+    Input input;
     input.mouse_x = x_px;
     input.mouse_y = y_px;
     input.mouse_button = down;
-    gui_.draw(world_, frame_, size_px_, &input, kFrame_s, false);
-    for (const gl::Finding& f : device_.findings()) ADD_FAILURE() << gl::to_text(f.misuse) << ": " << f.detail;
-    device_.forget();
+    gui_.lay_out(world_, frame_.report(), frame_.debug_labels(), size_px_, &input, kFrame_s);
 }
 
 std::optional<PanelHand::Row> PanelHand::find(unsigned id) {

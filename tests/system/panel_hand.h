@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/gl/device_recording.h"
 #include "sample_game/gui/gui.h"
+#include "systems/frame_system.h"
 
 namespace gnomon {
 
@@ -14,10 +14,8 @@ class PanelHand {
 public:
     using Label = std::vector<std::string>;
 
-    /// Of thousands of pictures of the panel none is kept: `device` forgets them once nothing in them was misused.
-    PanelHand(game::GameWorld& world, FrameSystem& frame, game::Gui& gui, gl::RecordingDevice& device,
-              glm::uvec2 size_px)
-        : world_(world), frame_(frame), gui_(gui), device_(device), size_px_(size_px) {}
+    PanelHand(game::GameWorld& world, FrameSystem& frame, game::Gui& gui, glm::uvec2 size_px)
+        : world_(world), frame_(frame), gui_(gui), size_px_(size_px) {}
 
     /// False: it is not in the panel, or lies where no mouse comes to.
     bool click(const Label& label);
@@ -38,7 +36,6 @@ private:
     game::GameWorld& world_;
     FrameSystem& frame_;
     game::Gui& gui_;
-    gl::RecordingDevice& device_;
     glm::uvec2 size_px_;
 };
 

@@ -23,12 +23,10 @@ protected:
         auto made = FrameSystem::create(device, world.library);
         ASSERT_TRUE(made) << to_line(made.error());
         frame = std::move(made).value();
-        auto gui_made = game::Gui::create(device);
-        ASSERT_TRUE(gui_made) << to_line(gui_made.error());
-        gui = std::move(gui_made).value();
+        gui = std::make_unique<game::Gui>();
         gui->panel.shown = true;
         settings.viewport_px = {2000, 1600};  // the panel fits in with all that is opened
-        hand.emplace(world, *frame, *gui, device, settings.viewport_px);
+        hand.emplace(world, *frame, *gui, settings.viewport_px);
         step();
     }
     void TearDown() override {

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "sample_game/support/files/image_files.h"
+#include "engine/image/encode_image.h"
 
 namespace gnomon::game {
 namespace {

@@ -37,14 +37,6 @@ std::optional<Error> write_file(const std::filesystem::path& file, std::span<con
     return std::nullopt;
 }
 
-std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
-                               std::span<const std::uint8_t> rgba) {
-    const std::vector<std::uint8_t> png = encode_png(width, height, rgba);
-    if (png.empty())
-        return Error{.message = "cannot encode the picture", .file = file.string(), .rule = "output.write"};
-    return write_file(file, std::as_bytes(std::span(png)));
-}
-
 std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const float> values) {
     if (values.size() != std::size_t{width} * height)

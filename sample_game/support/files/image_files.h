@@ -5,16 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/image/encode_image.h"
 #include "gnomon/result.h"
 
 namespace gnomon::game {
 
-/// Errors of the writers: rule "output.write", naming the file.
-std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
-                               std::span<const std::uint8_t> rgba);
-
-/// Writes a greyscale float32 PFM, little-endian. `values` and the file: bottom row first.
+/// Writes a greyscale float32 PFM, little-endian. `values` and the file: bottom row first. Errors of the writers: rule
+/// "output.write", naming the file.
 std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const float> values);
 

@@ -8,7 +8,8 @@
 
 #include "gnomon/components.h"
 #include "gnomon/light.h"
-#include "sample_game/support/scene/frame_camera.h"
+#include "sample_game/inside/frame_camera.h"
+#include "sample_game/inside/scene_bounds.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/unique_names.h"
 

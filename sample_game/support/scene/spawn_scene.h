@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/math/aabb.h"
 #include "gnomon/assets.h"
+#include "gnomon/box.h"
 #include "gnomon/registry.h"
 #include "sample_game/support/scene/animation_player.h"
 #include "sample_game/support/scene/node_motion.h"

@@ -1,9 +1,8 @@
 #include <array>
 
+#include "gnomon/shadow_tuning.h"
 #include "sample_game/support/settings/setting_parsers.h"
 #include "sample_game/support/settings/setting_rows.h"
-#include "systems/shadow/request/filter_settings.h"
-#include "systems/shadow/request/prefilter_settings.h"
 
 namespace gnomon::game {
 
@@ -13,9 +12,9 @@ inline constexpr std::array<std::string_view, 2> kWords<FilterSeed>{"screen", "w
 namespace {
 
 constexpr double kSliderSpread_m = 0.5, kSliderDoubles_m = 100.0, kSliderCell_m = 0.25;
-constexpr int kMostSpread_texel = static_cast<int>(shadow::kMostSpread_texel);
+constexpr int kMostSpread = static_cast<int>(kMostSpread_texel);
 constexpr int kMostExponent = 84;  // largest exponent of the table, with 32 bits per channel
-constexpr int kMostBleedingTenths = static_cast<int>(shadow::kMostMomentBleeding * 10.0f + 0.5f);
+constexpr int kMostBleedingTenths = static_cast<int>(kMostMomentBleeding * 10.0f + 0.5f);
 
 using K = ShadowTuning::Kernel;
 template <auto field>
@@ -31,28 +30,28 @@ constexpr std::array kKernelRows{
                  .field = "ShadowTuning::kernel.size_texel",
                  .values = "1 ... 31, odd",
                  .meaning = "texels along an edge of a pcf filter, or that a prefiltered map is blurred by",
-                 .set = set_count<Kernel<&K::size_texel>, 1, shadow::kMostFilterSize, 2>,
+                 .set = set_count<Kernel<&K::size_texel>, 1, kMostFilterSize, 2>,
                  .get = get_count<Kernel<&K::size_texel>>,
                  .editor = kNumber,
-                 .slider_most = shadow::kMostFilterSize,
+                 .slider_most = kMostFilterSize,
                  .whole = true},
     LightSetting{.key = "filter_taps",
                  .field = "ShadowTuning::kernel.taps",
                  .values = "1 ... 32",
                  .meaning = "of a poisson filter; at most, of pcss",
-                 .set = set_count<Kernel<&K::taps>, 1, shadow::kMostFilterTaps>,
+                 .set = set_count<Kernel<&K::taps>, 1, kMostFilterTaps>,
                  .get = get_count<Kernel<&K::taps>>,
                  .editor = kNumber,
-                 .slider_most = shadow::kMostFilterTaps,
+                 .slider_most = kMostFilterTaps,
                  .whole = true},
     LightSetting{.key = "filter_spread_texel",
                  .field = "ShadowTuning::kernel.spread_texel",
                  .values = "0 ... 16 (texels)",
                  .meaning = "half-width of a poisson or cube filter",
-                 .set = set_up_to<Kernel<&K::spread_texel>, kMostSpread_texel>,
+                 .set = set_up_to<Kernel<&K::spread_texel>, kMostSpread>,
                  .get = get_float<Kernel<&K::spread_texel>>,
                  .editor = kNumber,
-                 .slider_most = kMostSpread_texel},
+                 .slider_most = kMostSpread},
     LightSetting{.key = "filter_spread_m",
                  .field = "ShadowTuning::kernel.spread_m",
                  .values = "0 ... 1e11 (m)",
@@ -89,10 +88,10 @@ constexpr std::array kKernelRows{
                  .field = "ShadowTuning::kernel.penumbra_rays",
                  .values = "1 ... 256",
                  .meaning = "of exact_soft: rays from each pixel in a penumbra",
-                 .set = set_count<Kernel<&K::penumbra_rays>, 1, shadow::kMostPenumbraRays>,
+                 .set = set_count<Kernel<&K::penumbra_rays>, 1, kMostPenumbraRays>,
                  .get = get_count<Kernel<&K::penumbra_rays>>,
                  .editor = kNumber,
-                 .slider_most = shadow::kMostPenumbraRays,
+                 .slider_most = kMostPenumbraRays,
                  .whole = true},
     LightSetting{.key = "early_bail",
                  .field = "ShadowTuning::kernel.early_bail",
@@ -154,19 +153,19 @@ constexpr std::array kMomentsRows{
                  .field = "ShadowTuning::moments.levels",
                  .values = "1 ... 4",
                  .meaning = "of mipmaps of a prefiltered map",
-                 .set = set_count<Moments<&M::levels>, 1, shadow::kMostMomentLevels>,
+                 .set = set_count<Moments<&M::levels>, 1, kMostMomentLevels>,
                  .get = get_count<Moments<&M::levels>>,
                  .editor = kNumber,
-                 .slider_most = shadow::kMostMomentLevels,
+                 .slider_most = kMostMomentLevels,
                  .whole = true},
     LightSetting{.key = "moment_anisotropy",
                  .field = "ShadowTuning::moments.anisotropy",
                  .values = "1 ... 16",
                  .meaning = "samples along a pixel's footprint in it",
-                 .set = set_count<Moments<&M::anisotropy>, 1, shadow::kMostMomentAnisotropy>,
+                 .set = set_count<Moments<&M::anisotropy>, 1, kMostMomentAnisotropy>,
                  .get = get_count<Moments<&M::anisotropy>>,
                  .editor = kNumber,
-                 .slider_most = shadow::kMostMomentAnisotropy,
+                 .slider_most = kMostMomentAnisotropy,
                  .whole = true},
 };
 

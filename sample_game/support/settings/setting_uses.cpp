@@ -3,28 +3,27 @@
 #include <algorithm>
 #include <array>
 
-#include "systems/extract/light_facts.h"
-#include "systems/shadow/request/filter_table.h"
+#include "sample_game/inside/filter_figures.h"
 
 namespace gnomon::game {
 namespace {
 
 using Settings = const LightSettings&;
 
-const shadow::FilterRow& row_of(Settings s) { return shadow::filter_row(s.shadow.filter); }
+FilterFigures row_of(Settings s) { return figures_of(s.shadow.filter); }
 bool is_among(std::span<const ShadowFilter> filters, ShadowFilter filter) {
     return std::find(filters.begin(), filters.end(), filter) != filters.end();
 }
 
-bool for_sun(Settings, LightKind kind) { return light_facts(kind).parallel; }
-bool for_point(Settings, LightKind kind) { return !light_facts(kind).parallel && !light_facts(kind).cone; }
+bool for_sun(Settings, LightKind kind) { return is_sun(kind); }
+bool for_point(Settings, LightKind kind) { return is_point(kind); }
 
-bool for_source(Settings s, LightKind) { return row_of(s).width == shadow::FilterWidth::source; }
+bool for_source(Settings s, LightKind) { return row_of(s).extent == FilterExtent::source; }
 bool for_lamp_source(Settings s, LightKind kind) { return for_source(s, kind) && !for_sun(s, kind); }
 bool for_sun_source(Settings s, LightKind kind) { return for_source(s, kind) && for_sun(s, kind); }
 
-bool for_size(Settings s, LightKind) { return row_of(s).width == shadow::FilterWidth::size; }
-bool for_spread(Settings s, LightKind) { return row_of(s).width == shadow::FilterWidth::spread; }
+bool for_size(Settings s, LightKind) { return row_of(s).extent == FilterExtent::size; }
+bool for_spread(Settings s, LightKind) { return row_of(s).extent == FilterExtent::spread; }
 bool for_spread_texel(Settings s, LightKind kind) { return for_spread(s, kind) && !(s.tuning.kernel.spread_m > 0.0f); }
 bool for_taps(Settings s, LightKind) {
     static constexpr std::array kWithTaps{ShadowFilter::poisson, ShadowFilter::poisson_rotated,
@@ -38,18 +37,16 @@ bool for_seed(Settings s, LightKind) {
 }
 bool for_cells(Settings s, LightKind kind) { return for_seed(s, kind) && s.tuning.kernel.seed == FilterSeed::world; }
 bool for_many_taps(Settings s, LightKind kind) {
-    return (for_size(s, kind) || for_spread(s, kind)) && !row_of(s).moments;
+    return (for_size(s, kind) || for_spread(s, kind)) && !row_of(s).prefiltered;
 }
-bool for_source_rays(Settings s, LightKind) { return row_of(s).rays && row_of(s).rays->per_source; }
+bool for_source_rays(Settings s, LightKind) { return row_of(s).rays == FilterRays::to_source; }
 
-bool for_moments(Settings s, LightKind) { return row_of(s).moments; }
-bool for_exponent(Settings s, LightKind) { return row_of(s).moments && row_of(s).moments->bits_32.usual_exponent > 0; }
-bool for_second_warp(Settings s, LightKind) {
-    return row_of(s).moments && row_of(s).moments->usual_negative_exponent > 0;
-}
+bool for_moments(Settings s, LightKind) { return row_of(s).prefiltered; }
+bool for_exponent(Settings s, LightKind) { return row_of(s).has_exponent; }
+bool for_second_warp(Settings s, LightKind) { return row_of(s).has_second; }
 
 // Maps of bounds have neither an offset nor a format of depths to choose.
-bool for_depths(Settings s, LightKind) { return !row_of(s).storage.conservative_bounds; }
+bool for_depths(Settings s, LightKind) { return row_of(s).keeps_depths; }
 bool for_offset_m(Settings s, LightKind kind) {
     static constexpr std::array kModes{BiasMode::constant, BiasMode::slope, BiasMode::normal_offset,
                                        BiasMode::receiver_plane};

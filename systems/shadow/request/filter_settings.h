@@ -8,9 +8,6 @@ namespace gnomon::shadow {
 
 struct FilterRow;
 
-inline constexpr std::uint32_t kMostFilterSize = 31, kMostFilterTaps = 32, kMostPenumbraRays = 256;
-/// Largest half-width of a spread, texels. A wider one costs a map too much border, and needs too much bias.
-inline constexpr float kMostSpread_texel = 16.0f;
 /// Largest half-width of a penumbra of FilterWidth::source, texels. A wider one costs the blocker search more taps; a
 /// map with fewer texels avoids that.
 inline constexpr float kMostPenumbra_texel = 128.0f;

@@ -161,3 +161,11 @@ const FilterRow* find_filter(std::string_view name) {
 }
 
 }  // namespace gnomon::shadow
+
+namespace gnomon {
+
+const char* to_text(ShadowFilter filter) {
+    return filter == ShadowFilter::automatic ? "automatic" : shadow::filter_row(filter).name.data();
+}
+
+}  // namespace gnomon

@@ -48,3 +48,9 @@ gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request
 }
 
 }  // namespace gnomon::shadow
+
+namespace gnomon {
+
+const char* to_text(LightKind kind) { return shadow::light_kind_row(kind).name.data(); }
+
+}  // namespace gnomon

@@ -39,7 +39,7 @@ struct DepthView : ::testing::Test {
     }
     std::optional<Drawing> draw(const std::string& light) {
         request.light = light;
-        return request.view->draw({scene, frame, request, {0, 0, 400, 320}});
+        return request.view->drawer->draw({scene, frame, request, {0, 0, 400, 320}});
     }
     static DepthTiles tiles_of(const Drawing& drawing) {
         DepthTiles tiles;

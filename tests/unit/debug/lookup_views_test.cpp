@@ -21,7 +21,7 @@ struct LookupViews : ViewTest {
 
 TEST_F(LookupViews, EveryOneOfThemNamesItsLightAndStartsInTheUpperLeftCorner) {
     for (const ViewRow& row : view_table()) {
-        if (row.medium != ViewMedium::lookups) continue;
+        if (row.drawer->medium != ViewMedium::lookups) continue;
         const auto drawing = draw(row.name.data(), "lamp");
         ASSERT_TRUE(drawing) << row.name;
         EXPECT_EQ(drawing->light, 1u);

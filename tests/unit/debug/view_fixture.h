@@ -46,7 +46,7 @@ struct ViewTest : ::testing::Test {
         request.view = find_view(view);
         request.light = light;
         request.layer = layer;
-        return request.view->draw({scene, frame, request, {10, 20, 400, 300}, fitted});
+        return request.view->drawer->draw({scene, frame, request, {10, 20, 400, 300}, fitted});
     }
     static std::vector<std::string> texts(const Drawing& drawing) {
         std::vector<std::string> all;

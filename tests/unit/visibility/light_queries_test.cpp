@@ -39,22 +39,6 @@ TEST(LightQueries, ACasterDarkensWhatIsBehindItAndNothingElse) {
     EXPECT_EQ(scene.ask(scene.lamp({0.0, 0.3, 0.0}), kBelow), 1.0f) << "a lamp below it";
 }
 
-TEST(LightQueries, AreAskedAsTheGuideSays) {
-    const QueryScene world = cube_scene();
-    const assets::MeshLibrary& library = world.library;
-    const SceneSnapshot& scene = world.snapshot;
-    const LightItem lamp = world.lamp({0.0, 5.0, 0.0});
-    const glm::dvec3 feet_m = kBelow.at_ws_m, chest_m(0.0, 3.0, 0.0);
-    // [ask]
-    visibility::CasterTrees trees(library);                                 // holds nothing yet
-    visibility::LightQueries queries(trees);                                // keep both from frame to frame
-    const std::vector<visibility::Place> places{{feet_m}, {chest_m, 0.3}};  // a point, and a sphere of 0.3 m
-    std::vector<float> shares(places.size());
-    queries.ask(scene, lamp, places, {.threads = 2}, shares);
-    // [ask]
-    EXPECT_THAT(shares, testing::ElementsAre(0.0f, 1.0f));
-}
-
 TEST(LightQueries, WithoutTheCasterItIsLight) {
     QueryScene scene = cube_scene();
     const LightItem sun = scene.sun({0.0, 1.0, 0.0});

@@ -8,9 +8,6 @@
 namespace gnomon::game {
 namespace {
 
-using platform::Gamepad;
-using platform::PadButton;
-
 constexpr double kDt_s = 0.1;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 

@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "engine/math/aabb.h"
 #include "gnomon/assets.h"
+#include "sample_game/inside/scene_bounds.h"
 #include "sample_game/support/built_in_scenes/ear_clipping.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/open_scene.h"

@@ -5,7 +5,9 @@
 #include <map>
 #include <utility>
 
+#include "engine/math/aabb.h"
 #include "gnomon/assets.h"
+#include "sample_game/inside/scene_bounds.h"
 #include "sample_game/support/built_in_scenes/valley/parts.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/open_scene.h"

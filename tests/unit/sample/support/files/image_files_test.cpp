@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/image/encode_image.h"
 #include "tests/own_folder.h"
 
 namespace gnomon::game {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "engine/math/aabb.h"
 #include "gnomon/components.h"
 #include "gnomon/light.h"
 #include "sample_game/support/scene/open_scene.h"

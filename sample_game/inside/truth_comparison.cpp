@@ -1,20 +1,25 @@
-#include "sample_game/support/truth_comparison.h"
+#include "sample_game/inside/truth_comparison.h"
 
 #include <algorithm>
 
+#include "systems/extract/extract.h"
+#include "systems/transform/transform_system.h"
 #include "systems/truth/error_tints.h"
 
 namespace gnomon::game {
 
-void FrozenFrame::freeze(const FrameSystem& frame, const assets::MeshLibrary& library, unsigned threads) {
+void FrozenFrame::freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px,
+                         unsigned threads) {
     thaw();
-    const SceneSnapshot& scene = frame.snapshot();
+    SceneSnapshot scene;
+    TransformSystem transforms;
+    Extractor().update(world, library, transforms.update(world), size_px, scene);
     if (scene.consumers.empty()) return;
-    size_px_ = scene.consumers.front().viewport_px;
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (!scene.lights[i].has_shadow) continue;
-        lights_.push_back({.name = scene.lights[i].name, .index = i, .metrics = {}});
-        layers_.push_back(scene.lights[i].shadow.layers);
+    size_px_ = size_px;
+    for (const LightItem& light : scene.lights) {
+        if (!light.has_shadow) continue;
+        lights_.push_back({.name = light.name, .entity = light.entity, .metrics = {}});
+        layers_.push_back(light.shadow.layers);
     }
     if (chosen_ && *chosen_ >= lights_.size()) chosen_.reset();
     trace_ = std::make_unique<truth::BackgroundTrace>(scene, library, threads);
@@ -30,12 +35,13 @@ void FrozenFrame::thaw() {
     state_ = State::off;
 }
 
-void FrozenFrame::update(FrameSystem& frame) {
+void FrozenFrame::update(Frame& frame, const ecs::Registry& world, glm::uvec2 size_px) {
     if (!on()) return;
-    const SceneSnapshot& scene = frame.snapshot();
-    bool same = !scene.consumers.empty() && scene.consumers.front().viewport_px == size_px_;
-    for (std::size_t i = 0; same && i < lights_.size(); ++i)
-        same = lights_[i].index < scene.lights.size() && scene.lights[lights_[i].index].shadow.layers == layers_[i];
+    bool same = size_px == size_px_;
+    for (std::size_t i = 0; same && i < lights_.size(); ++i) {
+        const LightShadow* shadow = world.get<LightShadow>(lights_[i].entity);
+        same = shadow && shadow->layers == layers_[i];
+    }
     if (!same) return thaw();
     if (!frame.report().still)
         for (JudgedLight& light : lights_) light.stale = true;
@@ -47,7 +53,7 @@ void FrozenFrame::update(FrameSystem& frame) {
     }
 }
 
-void FrozenFrame::finish(FrameSystem& frame) {
+void FrozenFrame::finish(Frame& frame) {
     if (!on()) return;
     trace_->truth();
     state_ = State::shown;
@@ -60,11 +66,11 @@ bool FrozenFrame::judged() const {
            std::none_of(lights_.begin(), lights_.end(), [](const JudgedLight& light) { return light.stale; });
 }
 
-void FrozenFrame::judge(FrameSystem& frame, std::size_t index) {
+void FrozenFrame::judge(Frame& frame, std::size_t index) {
     JudgedLight& light = lights_[index];
     light.stale = false;
     light.metrics.reset();
-    if (!frame.read_visibility(light.index, light.measured)) light.measured.clear();
+    if (!frame.read_visibility(light.entity, light.measured)) light.measured.clear();
     const auto& traced = trace_->truth().lights;
     if (index < traced.size() && light.measured.size() == traced[index].truth.visibility.size()) {
         const truth::LightTruth& truth = traced[index].truth;

@@ -1,4 +1,4 @@
-#include "sample_game/support/scene/frame_camera.h"
+#include "sample_game/inside/frame_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/math/aabb.h"
 #include "engine/rays/exact_triangle.h"
 #include "systems/extract/drawable_basis.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "engine/math/aabb.h"
 #include "gnomon/assets.h"
+#include "gnomon/box.h"
 #include "gnomon/components.h"
 
 namespace gnomon::game {

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "gnomon/assets.h"
-#include "systems/frame_system.h"
+#include "gnomon/frame.h"
+#include "gnomon/registry.h"
 #include "systems/truth/metrics.h"
 #include "systems/truth/picture_truth.h"
 
@@ -16,7 +17,7 @@ namespace gnomon::game {
 /// A shadowed light of a frozen frame.
 struct JudgedLight {
     std::string name;
-    std::uint32_t index = 0;                // index into the snapshot's lights
+    ecs::Entity entity;
     std::vector<float> measured = {};       // its visibility, as it is drawn now; empty: not yet read, or unreadable
     std::optional<truth::Metrics> metrics;  // accuracy of `measured`; empty: not yet judged
     bool stale = true;                      // its visibility has to be read again
@@ -30,14 +31,14 @@ class FrozenFrame {
 public:
     enum class State : std::uint8_t { off, tracing, shown };
 
-    /// Begins with the frame that was run last, on `threads` threads beside this one.
-    void freeze(const FrameSystem& frame, const assets::MeshLibrary& library, unsigned threads);
+    /// Begins with `world` as the last frame drew it, `size_px` large, on `threads` threads beside this one.
+    void freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px, unsigned threads);
     void thaw();
     /// Judges one light at most, once the trace is finished; never blocks on it. Call after each frame. Ends the freeze
     /// if the picture's size or the layers of a light's shadow have changed.
-    void update(FrameSystem& frame);
+    void update(Frame& frame, const ecs::Registry& world, glm::uvec2 size_px);
     /// Blocks until the trace is complete and every light is judged, or its visibility proves unreadable.
-    void finish(FrameSystem& frame);
+    void finish(Frame& frame);
 
     State state() const { return state_; }
     bool on() const { return state_ != State::off; }
@@ -57,7 +58,7 @@ public:
     glm::uvec2 size_px() const { return size_px_; }
 
 private:
-    void judge(FrameSystem& frame, std::size_t index);
+    void judge(Frame& frame, std::size_t index);
     void paint();
 
     State state_ = State::off;
