@@ -1,7 +1,8 @@
 // Shadows in a deferred renderer with buffers of its own: reversed depths, normals and colours.
 //
 // The engine draws its surfaces once. Gnomon reads their depths and normals and gives a mask with a layer per light.
-// One pass over the screen adds all lights up, a texel of the mask for each.
+// One pass over the screen adds all lights up, a texel of the mask for each. Gnomon draws its maps from the engine's
+// own buffers: no mesh is copied.
 #include <epoxy/gl.h>
 #include <gnomon/shadows.h>
 #include <gnomon/window.h>
@@ -133,37 +134,46 @@ void fit(Surfaces& surfaces, glm::uvec2 size_px) {
     glNamedFramebufferDrawBuffers(surfaces.framebuffer, 2, both);
 }
 
-// A box of edge 1: position and normal per vertex.
+// A box of edge 1: position and normal per vertex, 16 bits per index.
 struct Vertex {
     glm::vec3 position, normal;
 };
-std::vector<Vertex> box_vertices() {
+struct Box {
+    GLuint array = 0, vertex_buffer = 0, index_buffer = 0;
+    std::uint32_t vertex_count = 0, index_count = 0;
+};
+Box make_box() {
     std::vector<Vertex> vertices;
+    std::vector<std::uint16_t> indices;
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-0.5f, 0.5f}) {
             glm::vec3 out(0.0f), u(0.0f), v(0.0f);
             out[axis] = side;
             u[(axis + 1) % 3] = side;
             v[(axis + 2) % 3] = 0.5f;
-            for (const glm::vec3& corner :
-                 {out - u - v, out + u - v, out + u + v, out - u - v, out + u + v, out - u + v})
+            for (const int corner : {0, 1, 2, 0, 2, 3})
+                indices.push_back(static_cast<std::uint16_t>(vertices.size() + corner));
+            for (const glm::vec3& corner : {out - u - v, out + u - v, out + u + v, out - u + v})
                 vertices.push_back({corner, 2.0f * out});
         }
-    return vertices;
-}
-
-GLuint make_array(const std::vector<Vertex>& vertices) {
-    GLuint buffer = 0, array = 0;
-    glCreateBuffers(1, &buffer);
-    glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(), 0);
-    glCreateVertexArrays(1, &array);
-    glVertexArrayVertexBuffer(array, 0, buffer, 0, sizeof(Vertex));
+    Box box;
+    box.vertex_count = static_cast<std::uint32_t>(vertices.size());
+    box.index_count = static_cast<std::uint32_t>(indices.size());
+    glCreateBuffers(1, &box.vertex_buffer);
+    glNamedBufferStorage(box.vertex_buffer, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+                         0);
+    glCreateBuffers(1, &box.index_buffer);
+    glNamedBufferStorage(box.index_buffer, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)),
+                         indices.data(), 0);
+    glCreateVertexArrays(1, &box.array);
+    glVertexArrayVertexBuffer(box.array, 0, box.vertex_buffer, 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(box.array, box.index_buffer);
     for (const GLuint attribute : {0u, 1u}) {
-        glEnableVertexArrayAttrib(array, attribute);
-        glVertexArrayAttribFormat(array, attribute, 3, GL_FLOAT, GL_FALSE, attribute * sizeof(glm::vec3));
-        glVertexArrayAttribBinding(array, attribute, 0);
+        glEnableVertexArrayAttrib(box.array, attribute);
+        glVertexArrayAttribFormat(box.array, attribute, 3, GL_FLOAT, GL_FALSE, attribute * sizeof(glm::vec3));
+        glVertexArrayAttribBinding(box.array, attribute, 0);
     }
-    return array;
+    return box;
 }
 
 std::vector<Thing> make_things() {
@@ -201,8 +211,7 @@ int main(int argc, char** argv) {
 
     const GLuint surface_program = make_program(kSurfaceVertex, kSurfaceFragment);
     const GLuint lighting_program = make_program(kEveryPixel, kLighting);
-    const std::vector<Vertex> vertices = box_vertices();
-    const GLuint box = make_array(vertices);
+    const Box box = make_box();
     GLuint no_vertices = 0;
     glCreateVertexArrays(1, &no_vertices);
     Surfaces surfaces;
@@ -211,14 +220,17 @@ int main(int argc, char** argv) {
     auto created = gnomon::Shadows::create();
     if (!created) return fail(created.error());
     gnomon::Shadows& shadows = *created.value();
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> indices;
-    for (const Vertex& vertex : vertices) {
-        indices.push_back(static_cast<std::uint32_t>(positions.size()));
-        positions.push_back(vertex.position);
-    }
-    const auto mesh = shadows.add_mesh({.name = "box", .positions_m = positions, .indices = indices});
+    // [buffers]
+    const auto mesh = shadows.add_buffer_mesh({.name = "box",
+                                               .vertex_buffer = box.vertex_buffer,
+                                               .index_buffer = box.index_buffer,
+                                               .stride_bytes = sizeof(Vertex),
+                                               .vertex_count = box.vertex_count,
+                                               .index_size = gnomon::IndexSize::u16,
+                                               .index_count = box.index_count,
+                                               .bounds = {.min_m = glm::dvec3(-0.5), .max_m = glm::dvec3(0.5)}});
     if (!mesh) return fail(mesh.error());
+    // [buffers]
     for (Thing& thing : things)
         thing.caster = shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = thing.place(0.0)});
 
@@ -250,7 +262,7 @@ int main(int argc, char** argv) {
         glClearDepth(0.0);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glUseProgram(surface_program);
-        glBindVertexArray(box);
+        glBindVertexArray(box.array);
         glUniformMatrix4fv(0, 1, GL_FALSE, &clip_from_world[0][0]);
         for (const Thing& thing : things) {
             const glm::dmat4 exact = thing.place(window.value()->time_s());
@@ -258,7 +270,7 @@ int main(int argc, char** argv) {
             const glm::mat4 place(exact);
             glUniformMatrix4fv(1, 1, GL_FALSE, &place[0][0]);
             glUniform3fv(2, 1, &thing.colour.x);
-            glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(box.index_count), GL_UNSIGNED_SHORT, nullptr);
         }
 
         // Shadows of all lights, by the surfaces' own depths and normals.

@@ -1,7 +1,7 @@
 // Two players, a half of the window each: one render() call makes a mask for either camera.
 //
-// The maps are shared: a lamp that both players see is drawn once. Each half has depths of its own, drawn before the
-// call, and reads its own mask after it.
+// Each half has depths of its own, drawn before the call, and reads its own mask after it. Each player has a body that
+// the other one sees, with its shadow; in the player's own half neither is there. So the views have a layer each.
 #include <epoxy/gl.h>
 #include <gnomon/shadows.h>
 #include <gnomon/window.h>
@@ -20,11 +20,15 @@ namespace {
 
 constexpr int kPlayers = 2, kLights = 3;
 
-// A box somewhere.
+// A box somewhere, in some players' halves.
 struct Thing {
     glm::dmat4 place{1.0};
     glm::vec3 colour{0.7f};
+    gnomon::ShadowLayers seen_by = gnomon::kAllShadowLayers;  // a bit per player
+    gnomon::CasterId caster = {};
 };
+
+gnomon::ShadowLayers layer_of(int player) { return static_cast<gnomon::ShadowLayers>(1 << player); }
 
 // A half of the window, and what its player sees.
 struct Half {
@@ -133,19 +137,23 @@ void fit(Half& half, glm::uvec2 size_px) {
     glNamedFramebufferTexture(half.framebuffer, GL_DEPTH_ATTACHMENT, half.depth, 0);
 }
 
-// Places the player's camera: both walk around the middle, on opposite sides.
-void place_camera(Half& half, int player, double time_s) {
+// Returns where the player's eye is: both walk around the middle, on opposite sides.
+glm::dvec3 eye_of(int player, double time_s) {
     const double angle_rad = 0.6 + 0.3 * time_s + 3.1416 * player;
-    const glm::dvec3 eye(7.0 * std::cos(angle_rad), 3.5 + player, 7.0 * std::sin(angle_rad));
+    return {7.0 * std::cos(angle_rad), 3.5 + player, 7.0 * std::sin(angle_rad)};
+}
+
+void place_camera(Half& half, const glm::dvec3& eye) {
     half.world_from_view = glm::inverse(glm::lookAt(eye, glm::dvec3(0.0, 0.8, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
     half.clip_from_view = glm::perspective(1.0, static_cast<double>(half.size_px.x) / half.size_px.y, 0.1, 100.0);
 }
 
-void draw(GLuint program, const Half& half, const std::vector<Thing>& things) {
+void draw(GLuint program, const Half& half, int player, const std::vector<Thing>& things) {
     const glm::mat4 clip_from_world(half.clip_from_view * glm::inverse(half.world_from_view));
     glUseProgram(program);
     glUniformMatrix4fv(0, 1, GL_FALSE, &clip_from_world[0][0]);
     for (const Thing& thing : things) {
+        if ((thing.seen_by & layer_of(player)) == 0) continue;
         const glm::mat4 place(thing.place);
         glUniformMatrix4fv(1, 1, GL_FALSE, &place[0][0]);
         glUniform3fv(2, 1, &thing.colour.x);
@@ -169,6 +177,8 @@ std::vector<Thing> make_things() {
         add({2.8 * std::cos(angle_rad), 0.4 + 0.15 * i, 2.8 * std::sin(angle_rad)}, {0.6, 0.8 + 0.3 * i, 0.6},
             {0.7f, 0.5f, 0.4f});
     }
+    for (int player = 0; player < kPlayers; ++player)  // bodies come last
+        things.push_back({glm::dmat4(1.0), {0.3f, 0.6f, 0.4f}, layer_of(kPlayers - 1 - player)});
     return things;
 }
 
@@ -183,7 +193,7 @@ int main(int argc, char** argv) {
     const GLuint depth_only = make_program(kVertex, kDepthOnly), forward = make_program(kVertex, kForward);
     const std::vector<glm::vec3> positions = box_positions();
     const GLuint box = make_array(positions);
-    const std::vector<Thing> things = make_things();
+    std::vector<Thing> things = make_things();
     std::array<Half, kPlayers> halves;
 
     auto created = gnomon::Shadows::create();
@@ -193,9 +203,13 @@ int main(int argc, char** argv) {
     for (std::uint32_t i = 0; i < positions.size(); ++i) indices.push_back(i);
     const auto mesh = shadows.add_mesh({.name = "box", .positions_m = positions, .indices = indices});
     if (!mesh) return fail(mesh.error());
-    for (const Thing& thing : things) shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = thing.place});
+    for (Thing& thing : things)
+        thing.caster = shadows.add_caster({.mesh = mesh.value(),
+                                           .world_from_mesh = thing.place,
+                                           .cast_layers = thing.seen_by,
+                                           .receive_layers = thing.seen_by});
     const std::array<glm::vec4, kLights> lights = {
-        {{3.0f, 6.0f, 2.0f, 0.0f}, {0.0f, 2.4f, 0.0f, 1.0f}, {-4.5f, 3.0f, 1.0f, 1.0f}}};
+        {{6.0f, 5.0f, 4.0f, 0.0f}, {0.0f, 2.4f, 0.0f, 1.0f}, {-4.5f, 3.0f, 1.0f, 1.0f}}};
     const std::array<glm::vec3, kLights> colours = {{{0.4f, 0.38f, 0.35f}, {4.0f, 3.0f, 1.5f}, {1.5f, 3.0f, 7.0f}}};
     for (const glm::vec4& light : lights)
         shadows.add_light(
@@ -210,19 +224,31 @@ int main(int argc, char** argv) {
         glClearColor(0.02f, 0.03f, 0.05f, 1.0f);
         glBindVertexArray(box);
 
+        // Bodies stand below their players' eyes.
+        for (int player = 0; player < kPlayers; ++player) {
+            const glm::dvec3 eye = eye_of(player, window.value()->time_s());
+            Thing& body = things[things.size() - kPlayers + player];
+            body.place = glm::scale(glm::translate(glm::dmat4(1.0), {eye.x, 0.5 * eye.y, eye.z}), {0.6, eye.y, 0.6});
+            shadows.set_transform(body.caster, body.place);
+            fit(halves[player], half_px);
+            place_camera(halves[player], eye);
+        }
+
         // Depths of both halves, then both masks, then both pictures.
         std::array<gnomon::View, kPlayers> views;
         for (int player = 0; player < kPlayers; ++player) {
-            Half& half = halves[player];
-            fit(half, half_px);
-            place_camera(half, player, window.value()->time_s());
+            const Half& half = halves[player];
             begin(half);
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-            draw(depth_only, half, things);
+            draw(depth_only, half, player, things);
+            // [view]
             views[player] = {.world_from_view = half.world_from_view,
                              .clip_from_view = half.clip_from_view,
                              .depth_texture = half.depth,
-                             .size_px = half.size_px};
+                             .size_px = half.size_px,
+                             .cast_layers = layer_of(player),
+                             .receive_layers = layer_of(player)};
+            // [view]
         }
         // [masks]
         const std::span<const gnomon::Mask> masks = shadows.render(views);
@@ -235,7 +261,7 @@ int main(int argc, char** argv) {
             glBindTextureUnit(0, masks[player].texture);
             glProgramUniform4fv(forward, 3, kLights, &lights[0].x);
             glProgramUniform3fv(forward, 6, kLights, &colours[0].x);
-            draw(forward, half, things);
+            draw(forward, half, player, things);
             const auto left = static_cast<GLint>(player * half_px.x), width = static_cast<GLint>(half_px.x),
                        height = static_cast<GLint>(half_px.y);
             glBlitNamedFramebuffer(half.framebuffer, window.value()->framebuffer(), 0, 0, width, height, left, 0,

@@ -67,6 +67,21 @@ def copy_without_shadows(examples, into):
         file.write_text(text, encoding="utf-8")
 
 
+def add_variant(examples, name, text):
+    """A program that differs from an example in a line."""
+    (examples / (name + ".cpp")).write_text(text, encoding="utf-8")
+    with open(examples / "CMakeLists.txt", "a", encoding="utf-8") as file:
+        file.write("gnomon_example(%s Gnomon::shadows Gnomon::window PkgConfig::EPOXY)\n" % name)
+
+
+def add_shared_layers(examples):
+    """split_screen_shared: bodies cast in their own players' halves, too."""
+    text = (examples / "split_screen.cpp").read_text(encoding="utf-8")
+    if text.count(".cast_layers = layer_of(player),") != 1:
+        raise Wrong("split_screen.cpp sets its views' layers otherwise")
+    add_variant(examples, "split_screen_shared", text.replace(".cast_layers = layer_of(player),", ""))
+
+
 def add_late_start(examples):
     """streaming_late: it begins where `streaming` is in its last frame, with all that is near there and nothing else."""
     text = (examples / "streaming.cpp").read_text(encoding="utf-8")
@@ -74,9 +89,7 @@ def add_late_start(examples):
                           r"\1 * (\2 + %d / 60.0)" % (FRAMES["streaming"] - 1), text)
     if count != 1:
         raise Wrong("streaming.cpp sets its way %d times" % count)
-    (examples / "streaming_late.cpp").write_text(late, encoding="utf-8")
-    with open(examples / "CMakeLists.txt", "a", encoding="utf-8") as file:
-        file.write("gnomon_example(streaming_late Gnomon::shadows Gnomon::window PkgConfig::EPOXY)\n")
+    add_variant(examples, "streaming_late", late)
 
 
 def draw(program, picture, *flags, wrapper=(), frames=None):
@@ -121,6 +134,15 @@ def check_halves(pixels, other_half):
     if not left or not right or same > 0.6:
         raise Wrong("split_screen: %d and %d pixels in shadow, %.0f %% the same" % (len(left), len(right), 100 * same))
     return same
+
+
+def check_layers(picture, shared):
+    """A shadow of the player's own body is missing that is there where views share all layers."""
+    count = sum(max(picture.rgba[i + c] - shared.rgba[i + c] for c in range(3)) > LEVELS
+                for i in range(0, 4 * WIDTH * HEIGHT, 4))
+    if count < 100:
+        raise Wrong("split_screen: %d pixels lie in the shadow of their player's own body" % count)
+    return count
 
 
 def check_streaming(text):
@@ -221,6 +243,7 @@ def main(build_folder, source, work, compiler, launcher=""):
     (work / "first").rename(prefix)
     shutil.copytree(source / "examples", work / "examples")
     add_late_start(work / "examples")
+    add_shared_layers(work / "examples")
     copy_without_shadows(source / "examples", work / "unshadowed")
     for name in ("examples", "unshadowed"):
         build(work / name, work / (name + "_build"), prefix, compiler, launcher)
@@ -243,6 +266,9 @@ def main(build_folder, source, work, compiler, launcher=""):
     pixels = darker(picture, lit)
     print("split_screen: %.0f %% of the shadows are the same in both halves" % (100 * check_halves(pixels, WIDTH // 2)))
     must_fail(check_halves, pixels, 0)
+    shared, _ = draw(programs / "split_screen_shared", work / "split_screen_shared.png", "--headless")
+    print("split_screen: %d lit pixels lie in the shadow of their player's own body" % check_layers(picture, shared))
+    must_fail(check_layers, picture, picture)
     check_streaming(drawn["streaming"][2])
     must_fail(check_streaming, drawn["streaming"][2].splitlines()[0])
     again, text = draw(programs / "streaming", work / "again.png", "--headless")
