@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/math/frustum.h"
 #include "engine/math/projection.h"
 #include "gnomon/shadows.h"
 #include "tests/gl/traced_frame_fixture.h"
@@ -191,7 +192,10 @@ protected:
     }
     LightId add_shadowed(LightKind kind, const glm::dvec3& at_m, const LightShadow& shadow = {}) {
         const Light light{.kind = kind, .outer_cone_rad = 0.9f};
-        add_light(light, at_m, -at_m, shadow);
+        const ecs::Entity entity = add_light(light, at_m, -at_m, shadow);
+        // A spot's map turns with it; Shadows chooses the turn about the light's direction.
+        const glm::dmat3 rotation = math::basis_from_back(glm::normalize(at_m));
+        world.patch<Transform>(entity, [&](Transform& transform) { transform.rotation = glm::quat_cast(rotation); });
         return shadows->add_light({.light = light, .position_m = at_m, .direction = -at_m, .shadow = shadow});
     }
     void look_from(const glm::dvec3& at_m) {
