@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 
 #include "bench/common/png_file.h"
+#include "engine/image/encode_image.h"
 #include "sample_game/support/files/image_files.h"
 #include "systems/truth/error_colours.h"
 
