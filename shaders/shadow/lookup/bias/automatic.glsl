@@ -27,16 +27,22 @@ float carried_error_m(vec2 texel_m, vec2 lateral, float cosine) {
     return kNormalError_rad * dot(texel_m, 1.0 + (lateral + kNormalError_rad) / least_cosine);
 }
 
-// Returns the part of the offset that rounding and snapping need. It is the same everywhere on the plane; the rest is a
-// share of the depth.
-float plane_lift(ViewRecord view, vec2 slope) { return view.numeric.x + kRasterSnap_texel * (abs(slope.x) + abs(slope.y)); }
-
 // Tests take a share of an offset, to show that less is not enough.
 #ifdef SHADOW_BIAS_SHARE
-Bias taken(Bias bias) { return Bias(SHADOW_BIAS_SHARE * bias.along_normal_m, SHADOW_BIAS_SHARE * bias.depth); }
+float taken(float offset) { return SHADOW_BIAS_SHARE * offset; }
 #else
-Bias taken(Bias bias) { return bias; }
+float taken(float offset) { return offset; }
 #endif
+Bias taken(Bias bias) { return Bias(taken(bias.along_normal_m), taken(bias.depth)); }
+
+// Returns a lamp's distance from the plane that a filter carries to the texels around the receiver, metres.
+// Only errors of the receiver's place and of its depth are in it: they change the plane's depths in proportion. What
+// snapping and the normal's error need is the same everywhere on the plane. It lifts the receiver alone. Where a lamp
+// grazes the plane it may exceed the lamp's distance, and a plane beyond the lamp falls the wrong way.
+// plane_m: from the receiver's own plane; distance_m: from the receiver; error_m: how far that may be off its plane.
+float carried_plane_m(float plane_m, float distance_m, float error_m) {
+    return max(plane_m - taken(kRelativeRounding * plane_m + error_m), kNormalError_rad * distance_m);
+}
 
 // Returns the bias in an orthographic map. n_map: normal in the map's axes (u, v, toward the light). error_m: how far
 // the receiver may be off its plane.

@@ -6,9 +6,13 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     float rounding_m = error_m + view.numeric.y + kPositionRounding * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
+    float nearer_m = taken(rounding_m);
     if (kReadsDepths) rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * (cascade_range_m(view, position_la) / view.axis_back.w), abs(n_map.xy), n_map.z);
     Bias bias = cascade_bias(view, position_la, normal, n_map, reach, rounding_m);
-    if (kManualBias && light.options.y != 0) bias = manual_bias(orthographic_place(view, n_map.z, cascade_range_m(view, position_la)));
+    if (kManualBias && light.options.y != 0) {
+        bias = manual_bias(orthographic_place(view, n_map.z, cascade_range_m(view, position_la)));
+        nearer_m = bias.along_normal_m;
+    }
     vec3 moved = position_la + normal * bias.along_normal_m;
     vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
     vec2 source_texel = sun_source_texel(view);
@@ -16,6 +20,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     ShadowPoint point = point_2d(i, projected, bias.depth, reads_texel);
     point.source_texel = source_texel;
     point.spread_texel = spread;
+    point.carried_aa = position_la + normal * nearer_m;
     point.position_ca = position_ca;
     point.facts = facts_orthographic(view, bias, cascade_range_m(view, position_la));
     // A cascade draws only what can darken its own depth range: points before it are served by the next one.

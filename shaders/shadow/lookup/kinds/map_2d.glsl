@@ -17,6 +17,7 @@ struct ShadowPoint {
     float reference;    // map.z
     vec2 slope;         // slope of the receiver's plane: reversed depth per texel along u and v; 0 if taps are not
                         // compared on it
+    vec3 carried_aa;    // point of the plane that is carried to other texels, from the view's anchor, metres
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec2 source_texel;  // see shadow/lookup/light_size.glsl
@@ -32,21 +33,22 @@ vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
 #include SHADOW_FLAT_MAP
 
-// Returns the slope of the biased receiver's plane, less plane_lift(): reversed depth per texel along u and v. A plane
-// stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
+// Returns the slope of the plane that is carried to other texels: reversed depth per texel along u and v. A plane stays
+// one under any projection: its slope follows from how u, v and depth change along two of its directions.
 vec2 shadow_slope(ShadowPoint point, vec3 normal) {
     mat4 map_from_anchor = light.views[point.view].map_from_anchor;
+    vec4 projected = map_from_anchor * vec4(point.carried_aa, 1.0);
+    vec3 map = projected.xyz / projected.w;
     vec3 along_w = row_xyz(map_from_anchor, 3);
-    vec3 along_u = row_xyz(map_from_anchor, 0) - point.map.x * along_w;
-    vec3 along_v = row_xyz(map_from_anchor, 1) - point.map.y * along_w;
-    vec3 along_depth = row_xyz(map_from_anchor, 2) - point.map.z * along_w;
+    vec3 along_u = row_xyz(map_from_anchor, 0) - map.x * along_w;
+    vec3 along_v = row_xyz(map_from_anchor, 1) - map.y * along_w;
+    vec3 along_depth = row_xyz(map_from_anchor, 2) - map.z * along_w;
     vec3 ray = cross(along_u, along_v);
     float facing = dot(ray, normal);
     float least = kNormalError_rad * length(ray);
     if (abs(facing) < least) facing = facing < 0.0 ? -least : least;
     vec3 over_u = cross(along_v, normal) * (point.texel_uv.x / facing), over_v = cross(normal, along_u) * (point.texel_uv.y / facing);
-    vec2 slope = vec2(dot(over_u, along_depth), dot(over_v, along_depth));
-    return slope + plane_lift(light.views[point.view], slope) * vec2(dot(over_u, along_w), dot(over_v, along_w));
+    return vec2(dot(over_u, along_depth), dot(over_v, along_depth));
 }
 
 // Returns whether the point has to be looked up. If not, it is lit.

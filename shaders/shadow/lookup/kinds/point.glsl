@@ -18,6 +18,7 @@ struct ShadowPoint {
     float bias_depth;
     float reference;      // biased depth
     vec2 slope;           // slope of the receiver's plane: reversed depth per texel along u and v
+    float plane_m;        // the light's distance from the plane that is carried to other texels
     vec3 plane;           // the receiver's plane, where dot(plane, position) is 1, if taps are compared on it
     vec2 spread_texel;    // half-width of a disk of taps
     vec2 source_texel;    // see shadow/lookup/light_size.glsl
@@ -28,11 +29,6 @@ struct ShadowPoint {
     vec3 normal;          // the receiver's
     LookupFacts facts;
 };
-
-// Returns the light's distance from the receiver's plane, metres: at least what rounding makes of it.
-float light_from_plane_m(ShadowPoint point, vec3 normal) {
-    return max(-dot(normal, point.position), kNormalError_rad * length(point.position));
-}
 
 // Returns whether the face that a direction falls on was drawn. A face that was not has no caster that is seen, and may
 // hold anything.
@@ -46,16 +42,12 @@ vec3 turned_back(vec3 v) {
 
 #include SHADOW_CUBE_MAP
 
-// Returns the slope of the biased receiver's plane, less plane_lift(). 1 / z is linear in the tangents on any plane:
-// see perspective_bias().
+// Returns the slope of the plane that is carried to other texels. 1 / z is linear in the tangents on any plane: see
+// perspective_bias().
 vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
-    vec3 normal = turned_back(normal_ws);
     ViewRecord view = light.views[0];
-    vec3 n_map = normal * face_axes(point.position);
-    float z_m = largest(point.position);
-    float biased = view.axis_back.w + point.bias_depth * z_m;
-    vec2 slope = vec2(n_map.x, n_map.y) * (-biased * view.axis_u.w / light_from_plane_m(point, normal));
-    return slope * (1.0 - plane_lift(view, slope) * z_m / biased);
+    vec3 n_map = turned_back(normal_ws) * face_axes(point.position);
+    return vec2(n_map.x, n_map.y) * (-view.axis_back.w * view.axis_u.w / point.plane_m);
 }
 
 // Returns how much longer the way from the light is than its part along the face's axis: the least within reach.
@@ -125,13 +117,16 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
         tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
         reach = seam_texel(reach);
     }
+    float distance_m = length(position_la), plane_m = -dot(normal, position_la);
+    float carried_m = carried_plane_m(plane_m, distance_m, rounding_m);
     if (kReadsDepths)
         rounding_m += carried_error_m(vec2(view.axis_u.w * z_m), tangents, -dot(normal, normalize(position_la)));
     Bias bias = perspective_bias(view, n_map, tangents, leaving, position_la * map_axes, reach, rounding_m);
     if (kManualBias && light.options.y != 0) {
         BiasPlace at = perspective_place(view, normal, position_la, z_m);
-        at.distance_m = length(position_la);
+        at.distance_m = distance_m;
         bias = manual_bias(at);
+        carried_m = max(plane_m - bias.along_normal_m, kNormalError_rad * distance_m);
     }
     ShadowPoint point;
     point.covered = z_m > 0.0 && view.numeric.z + view.axis_back.w / z_m >= 0.0;
@@ -140,6 +135,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     point.step_u = axis_u * step_m;
     point.step_v = axis_v * step_m;
     point.bias_depth = bias.depth;
+    point.plane_m = carried_m;
     point.spread_texel = spread;
     point.position_ca = position_ca;
     point.facts = facts_perspective(view, bias, length(position_la), z_m);
@@ -156,7 +152,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
 ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal_ws) {
     vec3 normal = turned_back(normal_ws);
     float margin = receiver_plane_margin(shadow_slope(point, normal_ws));
-    point.plane = -normal / light_from_plane_m(point, normal);
+    point.plane = -normal / point.plane_m;
     point.bias_depth += margin;
     point.facts.toward_m += margin * point.facts.depth_m;
     point.reference += margin;

@@ -17,16 +17,22 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
     float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_aa);
+    float plane_m = -dot(normal, position_la);
+    float nearer_m = plane_m - carried_plane_m(plane_m, length(position_la), rounding_m);
     if (kReadsDepths) rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
     Bias bias = perspective_bias(view, n_map, abs(n_map.xy), max(-n_map.z, 0.0), position_map, reach, rounding_m);
-    if (kManualBias && light.options.y != 0) bias = manual_bias(perspective_place(view, normal, position_la, -position_map.z));
+    if (kManualBias && light.options.y != 0) {
+        bias = manual_bias(perspective_place(view, normal, position_la, -position_map.z));
+        nearer_m = bias.along_normal_m;
+    }
     vec3 moved = position_aa + normal * bias.along_normal_m;
     ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
     point.source_texel = lamp_source_texel(view);
     point.tangent = vec2(position_map.x, position_map.y) / -position_map.z;
     point.spread_texel = spread;
+    point.carried_aa = position_aa + normal * nearer_m;
     point.position_ca = position_ca;
     point.facts = facts_perspective(view, bias, length(position_la), -position_map.z);
     return point;
