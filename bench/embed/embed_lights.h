@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/light.h"
-#include "gnomon/light.h"
 #include "engine/math/aabb.h"
+#include "gnomon/light.h"
 #include "gnomon/shadows.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/extract/snapshot.h"

@@ -1,7 +1,7 @@
 #pragma once
-#include <spdlog/logger.h>
 #include <memory>
 #include <optional>
+#include <spdlog/logger.h>
 #include <string>
 #include <vector>
 

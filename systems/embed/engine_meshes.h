@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "gnomon/result.h"
 #include "engine/gl/device.h"
+#include "gnomon/result.h"
 #include "gnomon/shadows.h"
 #include "systems/extract/mesh_records.h"
 

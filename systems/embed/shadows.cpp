@@ -1,5 +1,4 @@
 #include "gnomon/shadows.h"
-#include "engine/core/zone.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/zone.h"
 #include "engine/gl/device_gl45.h"
 #include "systems/after_submission.h"
 #include "systems/embed/draw_drawables.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "gnomon/shadows.h"
 #include "systems/embed/layered_scene.h"
-#include "gnomon/frame.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 #include "systems/shadow/shadow_system.h"
 #include "systems/timed_lights.h"

@@ -12,8 +12,8 @@
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/fitting/directional/split_transition.h"
-#include "tests/oracle/fit_stages.h"
 #include "systems/shadow/request/decide_requests.h"
+#include "tests/oracle/fit_stages.h"
 
 /// A sun's fits along the whole paths of the flicker bench, built-in scene, without a GPU: when views step, and how
 /// points pass from one cascade to the next.

@@ -1,6 +1,7 @@
+#include "systems/shadow/fitting/fit_views.h"
+
 #include <algorithm>
 
-#include "systems/shadow/fitting/fit_views.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/request/accuracy_target.h"
 #include "systems/shadow/request/decide_requests.h"
