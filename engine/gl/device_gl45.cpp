@@ -196,7 +196,7 @@ public:
         const std::uint64_t submission = submissions_++;
         if (lost()) return {Failure::context_lost, submission};
         drop_gl_errors();
-        const Failure failure = execute(list, submission, objects_, *state_, timers_, readbacks_, uploads_);
+        const Failure failure = execute(list, submission, objects_, *state_, {timers_, readbacks_, uploads_});
         if (lost()) return {Failure::context_lost, submission};
         return {failure, submission};
     }

@@ -16,15 +16,15 @@ constexpr GLsizei kItemBytes = 2 * sizeof(std::uint32_t);
 class ListExecutor {
 public:
     ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
-                 GlTimers& timers, GlReadbacks& readbacks, GlUploads& uploads)
+                 const ListServices& services)
         : list_(list),
           submission_(submission),
           objects_(objects),
           fixtures_(state.fixtures()),
           state_(state),
-          timers_(timers),
-          readbacks_(readbacks),
-          uploads_(uploads) {}
+          timers_(services.timers),
+          readbacks_(services.readbacks),
+          uploads_(services.uploads) {}
 
     Failure run() {
         state_.begin_list();
@@ -307,8 +307,8 @@ private:
 }  // namespace
 
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
-                GlTimers& timers, GlReadbacks& readbacks, GlUploads& uploads) {
-    return ListExecutor(list, submission, objects, state, timers, readbacks, uploads).run();
+                const ListServices& services) {
+    return ListExecutor(list, submission, objects, state, services).run();
 }
 
 }  // namespace gnomon::gl

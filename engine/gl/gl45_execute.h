@@ -7,9 +7,16 @@
 
 namespace gnomon::gl {
 
+/// Keepers of results and memory that outlive a list.
+struct ListServices {
+    GlTimers& timers;
+    GlReadbacks& readbacks;
+    GlUploads& uploads;
+};
+
 /// Executes a list in a state that GlState defines and gives back. Returns OpenGL's error, or
 /// invalid_value if it skipped misused commands.
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
-                GlTimers& timers, GlReadbacks& readbacks, GlUploads& uploads);
+                const ListServices& services);
 
 }  // namespace gnomon::gl

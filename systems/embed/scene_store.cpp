@@ -54,7 +54,7 @@ bool can_shine(const LightDesc& desc, DropReason& fault) {
     return !(facts.parallel || facts.cone) || looking_along(desc.direction).has_value();
 }
 
-/// Writes all but the name. Sets versions to `version` if anything differs and returns true.
+/// Writes all but the name. Sets shape_version to `version` if that differs. Returns true if anything does.
 bool put_light(const LightDesc& desc, const ShadowTuning& tuning, std::uint64_t version, LightItem& item) {
     const Light& light = desc.light;
     bool shape = put_field(item.kind, light.kind);
@@ -72,7 +72,6 @@ bool put_light(const LightDesc& desc, const ShadowTuning& tuning, std::uint64_t 
     bool any = put_field(item.colour, light.colour);
     any |= put_field(item.intensity, light.intensity);
     if (shape) item.shape_version = version;
-    if (shape || any) item.version = version;
     return shape || any;
 }
 
@@ -254,7 +253,7 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
         item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
         item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
     }
-    item.mirrored = glm::determinant(item.basis) < 0.0;
+    item.winding.mirrored = glm::determinant(item.basis) < 0.0;
     item.casts = desc.casts;
     item.receives = desc.receives;
     item.cast_layers = desc.cast_layers;

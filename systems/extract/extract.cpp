@@ -36,8 +36,8 @@ bool place_bent(InstanceItem& item, const PoseItem& pose) {
     item.basis = glm::dmat3(1.0);
     item.translation_ws_m = pose.origin_ws_m;
     item.bounds_ws = {pose.bounds_ms.min + pose.origin_ws_m, pose.bounds_ms.max + pose.origin_ws_m};
-    item.mirrored = pose.mirroring == assets::Mirroring::all;
-    item.folded = pose.mirroring == assets::Mirroring::some;
+    item.winding.mirrored = pose.mirroring == assets::Mirroring::all;
+    item.winding.folded = pose.mirroring == assets::Mirroring::some;
     return !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
 }
 
@@ -48,7 +48,7 @@ bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& 
     item.basis = *basis;
     item.translation_ws_m = world.translation_ws_m;
     item.bounds_ws = math::transformed(pose ? pose->bounds_ms : mesh.bounds_ms, *basis, world.translation_ws_m);
-    item.mirrored = glm::determinant(*basis) < 0.0;
+    item.winding.mirrored = glm::determinant(*basis) < 0.0;
     return !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
 }
 

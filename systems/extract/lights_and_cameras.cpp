@@ -25,7 +25,7 @@ bool put(T& field, const T& value) {
     return !same;
 }
 
-/// Writes all but the name. Sets versions to `version` if anything differs and returns true.
+/// Writes all but the name. Sets shape_version to `version` if that differs. Returns true if anything does.
 bool put_light(const ecs::Registry& registry, const Light& light, const WorldTransform& world, std::uint64_t version,
                LightItem& item) {
     const LightShadow* shadow = registry.get<LightShadow>(item.entity);
@@ -44,7 +44,6 @@ bool put_light(const ecs::Registry& registry, const Light& light, const WorldTra
     bool any = put(item.colour, light.colour);
     any |= put(item.intensity, light.intensity);
     if (shape) item.shape_version = version;
-    if (shape || any) item.version = version;
     return shape || any;
 }
 
@@ -105,13 +104,11 @@ void keep_versions(std::vector<LightItem>& before, const ecs::Registry& registry
         LightItem* was = find(before, light.entity);
         if (!was) {
             put_light(registry, component, world, version, light);
-            light.version = light.shape_version = version;
+            light.shape_version = version;
             continue;
         }
         std::swap(was->name, light.name);
-        const bool renamed = was->name != light.name;
         put_light(registry, component, world, version, *was);
-        if (renamed) was->version = version;
         light = std::move(*was);
     }
 }
@@ -167,11 +164,8 @@ Effect LightsAndCameras::rename(const ecs::Registry& registry, std::span<const e
     for (std::size_t i = 0; i < before.size(); ++i)
         before[i] = std::exchange(snapshot.lights[i].name, name_of(registry, snapshot.lights[i].entity));
     make_names_unique(snapshot.lights);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        if (before[i] == snapshot.lights[i].name) continue;
-        snapshot.lights[i].version = snapshot.version;
-        effect = Effect::changed;
-    }
+    for (std::size_t i = 0; i < before.size(); ++i)
+        if (before[i] != snapshot.lights[i].name) effect = Effect::changed;
     return effect;
 }
 

@@ -51,9 +51,9 @@ struct LightItem {
     float sun_radius_rad = 0.0f;   // sun
     bool has_shadow = false;       // a LightShadow component exists
     LightShadow shadow = {};
-    ShadowTuning tuning = {};         // the defaults where there is no LightShadow
-    std::uint64_t version = 0;        // grows whenever any of the above changed
-    std::uint64_t shape_version = 0;  // grows whenever any but name, colour and intensity did: what shadows follow from
+    ShadowTuning tuning = {};  // the defaults where there is no LightShadow
+    // Grows whenever any of the above but name, colour and intensity changed: what shadows follow from.
+    std::uint64_t shape_version = 0;
 };
 
 /// Pose of a deformable mesh (assets::Mesh::deformer) in this frame.
@@ -82,6 +82,13 @@ struct DrawableMotion {
     double moved_m = 0.0;
 };
 
+/// Which side of an instance's triangles faces outward.
+struct Winding {
+    bool mirrored = false;  // negative determinant
+    bool folded = false;    // the pose mirrors a part of the mesh: no side is known to face outward
+    bool operator==(const Winding&) const = default;
+};
+
 /// Placed mesh.
 struct InstanceItem {
     ecs::Entity entity = {};
@@ -95,8 +102,7 @@ struct InstanceItem {
     ShadowLayers cast_layers = kAllShadowLayers;
     ShadowLayers receive_layers = kAllShadowLayers;
     bool visible = true;
-    bool mirrored = false;  // negative determinant
-    bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
+    Winding winding = {};
     DrawableMotion drawable = {};
     bool by_depth = false;           // no triangles of it are known: a drawable, or a mesh in buffers of the engine's
     std::uint64_t version = 0;       // grows when mesh, place or pose changes, which maps depend on

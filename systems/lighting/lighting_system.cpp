@@ -98,8 +98,8 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
             const glm::dvec3 middle_ws_m = math::centre(scene.instances[nearest].bounds_ws);
             (blend ? blended_ : draws_)
                 .push_back({submesh.material, submesh.first_index, submesh.index_count, mesh.base_vertex,
-                            static_cast<std::uint32_t>(draw_items_.size()), step, head.mirrored,
-                            gpu.material(submesh.material).double_sided || head.folded,
+                            static_cast<std::uint32_t>(draw_items_.size()), step, head.winding.mirrored,
+                            gpu.material(submesh.material).double_sided || head.winding.folded,
                             blend ? glm::distance(middle_ws_m, consumer.position_ws_m) : farthest_m_[nearest]});
             for (std::uint32_t k = 0; k < step; ++k)
                 draw_items_.push_back({scene.instances[visible_[first + i + k]].gpu_slot, submesh.first_index / 3});
@@ -121,14 +121,15 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
         farthest_m_[i] = farthest_m(item.bounds_ws, consumer.position_ws_m);
     }
     const auto key = [&](std::uint32_t i) {
-        return std::tuple(scene.instances[i].mesh * 2 + (scene.instances[i].mirrored ? 1u : 0u), farthest_m_[i], i);
+        return std::tuple(scene.instances[i].mesh * 2 + (scene.instances[i].winding.mirrored ? 1u : 0u), farthest_m_[i],
+                          i);
     };
     std::sort(visible_.begin(), visible_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     for_each_mesh_run(scene, visible_, [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
         // Mirrored instances of a mesh come last, because their front faces have the opposite winding.
         const auto begin = visible_.begin() + first;
         const auto middle =
-            std::find_if(begin, begin + count, [&](std::uint32_t i) { return scene.instances[i].mirrored; });
+            std::find_if(begin, begin + count, [&](std::uint32_t i) { return scene.instances[i].winding.mirrored; });
         const auto plain = static_cast<std::uint32_t>(middle - begin);
         if (plain > 0) add_mesh_run(scene, gpu, first, plain, consumer);
         if (plain < count) add_mesh_run(scene, gpu, first + plain, count - plain, consumer);

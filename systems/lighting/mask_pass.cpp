@@ -188,10 +188,11 @@ void MaskPass::import(const DepthPicture& picture, std::uint32_t sample, gl::Com
     list.add(gl::EndGroup{});
 }
 
-/// Records one light over the surfaces that were imported last. If some pixels are slow there are two draws. The first
+/// Records a layer's light over the surfaces that were imported last. If some pixels are slow there are two draws. The first
 /// removes the depth of finished pixels, so that only the others pass the second one's depth test.
-void MaskPass::record_light(const LightProgram& program, std::uint32_t light, std::uint32_t sample,
-                            const gl::Rect& area, float depth, const GpuScene& gpu, gl::CommandList& list) const {
+void MaskPass::record_light(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample,
+                            const LightProgram& program, const gl::Rect& area, gl::CommandList& list) const {
+    const std::uint32_t light = in.layers[layer];
     list.add(gl::SetScissor{area});
     const auto draw = [&](gl::ProgramHandle used, bool takes_depth) {
         list.add(gl::SetPipeline{
@@ -203,8 +204,8 @@ void MaskPass::record_light(const LightProgram& program, std::uint32_t light, st
         list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
                                   sizeof(shadow::LightRecord)});
         bind_maps(program, list);
-        bind_triangles(program, gpu, list);
-        list.add(gl::DrawTriangle{depth});
+        bind_triangles(program, in.gpu, list);
+        list.add(gl::DrawTriangle{in.inputs.lights[light].farthest_depth});
     };
     if (program.decided_program) draw(program.decided_program, true);
     draw(program.program, false);
@@ -248,7 +249,7 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
             const shadow::LightingLight& light = in.inputs.lights[in.layers[layer]];
             list.add(gl::BeginGroup{in.scene.lights[light.light].name});
             list.add(gl::BeginTimer{lighting_timer(light.light)});
-            record_light(used, in.layers[layer], sample, area, light.farthest_depth, in.gpu, list);
+            record_light(in, layer, sample, used, area, list);
             list.add(gl::EndTimer{lighting_timer(light.light)});
             list.add(gl::EndGroup{});
         }

@@ -70,8 +70,8 @@ private:
     void bind_camera(std::uint32_t sample, gl::CommandList& list) const;
     void import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const;
     LightProgram program_of(const shadow::LightingLight& light);
-    void record_light(const LightProgram& program, std::uint32_t light, std::uint32_t sample, const gl::Rect& area,
-                      float depth, const GpuScene& gpu, gl::CommandList& list) const;
+    void record_light(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample, const LightProgram& program,
+                      const gl::Rect& area, gl::CommandList& list) const;
     void record_layers(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list);
     void release_undecided();
     void release_layers();

@@ -19,7 +19,7 @@ std::uint64_t LightingSystem::surfaces_signature(const shadow::LightingInputs& i
         s.add(item.version);
         s.add(item.mesh_version);
         const std::uint64_t layers = item.receives ? item.receive_layers : 0u;
-        s.add(layers * 4 + (item.mirrored ? 2u : 0u) + (item.folded ? 1u : 0u));
+        s.add(layers * 4 + (item.winding.mirrored ? 2u : 0u) + (item.winding.folded ? 1u : 0u));
     }
     return s.value();
 }

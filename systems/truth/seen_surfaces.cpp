@@ -41,9 +41,10 @@ public:
         if (std::tie(best.t, best.instance, best.triangle) <= std::tie(hit.t, instance_, triangle.triangle))
             return false;
         const glm::dvec3 normal = glm::cross(exact.b - exact.a, exact.c - exact.a);
-        const glm::dvec3 front = item_.mirrored ? -normal : normal;
+        const glm::dvec3 front = item_.winding.mirrored ? -normal : normal;
         const bool from_behind = !(glm::dot(front, rays_.along[ray]) < 0.0);
-        if (from_behind && !item_.folded && !is_double_sided(library_, library_.meshes[item_.mesh], triangle.triangle))
+        if (from_behind && !item_.winding.folded &&
+            !is_double_sided(library_, library_.meshes[item_.mesh], triangle.triangle))
             return false;
         if (!visibility::is_there(library_, item_, triangle, hit)) return false;
         best = {hit.t, instance_, triangle.triangle, front, exact.a};

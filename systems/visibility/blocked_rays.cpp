@@ -32,7 +32,7 @@ public:
         if (rays::begins_on_plane(exact, error_m)) return false;
         // A lamp in the triangle's plane counts as in front of it.
         const bool on_front = rays::ends_on_plane(rays_.along[ray] * rays_.last, exact, error_m);
-        if (on_front ? rays::begins_before(exact) != item_.mirrored : !(hit.t < rays_.last)) return false;
+        if (on_front ? rays::begins_before(exact) != item_.winding.mirrored : !(hit.t < rays_.last)) return false;
         return is_there(library_, item_, triangle, hit);
     }
 

@@ -123,8 +123,8 @@ void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index,
             t.visible = item.visible;
             t.cast_layers = item.casts ? item.cast_layers : ShadowLayers{0};
             t.receive_layers = item.receives ? item.receive_layers : ShadowLayers{0};
-            t.mirrored = item.mirrored;
-            t.double_sided = material.double_sided || item.folded;
+            t.mirrored = item.winding.mirrored;
+            t.double_sided = material.double_sided || item.winding.folded;
             t.masked = material.alpha_mode == assets::AlphaMode::mask;
             const glm::dvec3 n = front_normal(t);
             if (is_finite(t.a) && is_finite(n) && glm::dot(n, n) > 0.0) triangles_.push_back(t);

@@ -174,13 +174,13 @@ TEST_F(LivingCasters, LieWithinTheBoundsThatAllStagesWorkWith) {
         }
         const math::Aabb& box = item().bounds_ws;
         EXPECT_EQ(math::merged(box, held), box);
-        EXPECT_TRUE(item().folded) << "one of two joints mirrors";
-        EXPECT_FALSE(item().mirrored);
+        EXPECT_TRUE(item().winding.folded) << "one of two joints mirrors";
+        EXPECT_FALSE(item().winding.mirrored);
     }
     world.registry.patch<Transform>(lower, [](Transform& t) { t.scale.x = -1.0; });
     step();
-    EXPECT_TRUE(item().mirrored);
-    EXPECT_FALSE(item().folded);
+    EXPECT_TRUE(item().winding.mirrored);
+    EXPECT_FALSE(item().winding.folded);
 }
 
 TEST_F(LivingCasters, StandWhereTheirJointsAreFarFromTheOriginToo) {

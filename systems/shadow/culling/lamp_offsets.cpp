@@ -99,7 +99,7 @@ void LampOffsets::find_sides(const GpuScene& gpu, const LightItem& light, const 
             const double corner_m = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});
             const double clear_m = std::max(kClearOfPlanes * reach_m, share * corner_m);
             if (!(distance_to(c) < clear_m)) continue;
-            const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]) * (item.mirrored ? -1.0 : 1.0);
+            const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]) * (item.winding.mirrored ? -1.0 : 1.0);
             const double area = glm::length(across);
             if (!(area > 0.0)) continue;
             const double height_m = -glm::dot(across, c[0]) / area;

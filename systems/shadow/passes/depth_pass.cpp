@@ -168,9 +168,9 @@ gl::PipelineState DepthPass::opaque_state(const GpuScene& gpu, const ShadowView&
     if (variant_.sheets) return state;
     const CasterFaces faces = light.shadow.caster_faces;
     const bool outside = is_parallel(view) || math::distance(item.bounds_ws, apex_ws_m(view)) > 0.0;
-    if (faces == CasterFaces::both || !outside || item.folded || !gpu.mesh(item.mesh).solid) return state;
+    if (faces == CasterFaces::both || !outside || item.winding.folded || !gpu.mesh(item.mesh).solid) return state;
     state.cull = faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
-    state.front_is_clockwise = item.mirrored;
+    state.front_is_clockwise = item.winding.mirrored;
     return state;
 }
 

@@ -14,7 +14,7 @@ namespace {
 bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) {
     const InstanceItem &first = scene.instances[a], &second = scene.instances[b];
     if (first.mesh != second.mesh) return first.mesh < second.mesh;
-    return first.mirrored != second.mirrored ? second.mirrored : a < b;
+    return first.winding.mirrored != second.winding.mirrored ? second.winding.mirrored : a < b;
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void DepthPass::append_uniforms(const ShadowView& view, std::size_t at) {
 DepthPass::Group DepthPass::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
     const std::size_t first = caster_scratch_.size();
     caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
-    const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].mirrored; };
+    const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].winding.mirrored; };
     if (std::any_of(casters.begin(), casters.end(), mirrored))
         std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });

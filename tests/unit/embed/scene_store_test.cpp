@@ -11,7 +11,8 @@
 namespace gnomon::embed {
 namespace {
 
-constexpr std::array<glm::vec3, 4> kCorners{glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}};
+constexpr std::array<glm::vec3, 4> kCorners{
+    glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}};
 constexpr std::array<std::uint32_t, 12> kFaces{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
 
 class SceneStoreTest : public ::testing::Test {
@@ -142,7 +143,9 @@ TEST_F(SceneStoreTest, WhatCannotBePlacedIsNamedAndComesBack) {
     add_at(mesh, {0.0, 0.0, 0.0});
     const CasterId bad = add_at(mesh, {1.0, 0.0, 0.0});
     updated();
-    const auto reason = [&]() -> std::string_view { return store.dropped().empty() ? "" : store.dropped().front().reason; };
+    const auto reason = [&]() -> std::string_view {
+        return store.dropped().empty() ? "" : store.dropped().front().reason;
+    };
     EXPECT_EQ(reason(), "");
     store.set_transform(bad, glm::dmat4(std::numeric_limits<double>::quiet_NaN()));
     EXPECT_EQ(updated().instances.size(), 1u);
@@ -177,7 +180,8 @@ TEST_F(SceneStoreTest, ADrawableIsACasterWithoutTriangles) {
     EXPECT_EQ(store.snapshot().instances[0].bounds_ws.max.x, 3.0);
     EXPECT_EQ(store.snapshot().instances[0].drawable.moved_m, 0.25);
     const std::uint64_t since = store.snapshot().instances[0].drawable.since;
-    for (const double unknown : {std::numeric_limits<double>::infinity(), -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double unknown :
+         {std::numeric_limits<double>::infinity(), -1.0, std::numeric_limits<double>::quiet_NaN()}) {
         store.redraw(grass, {{0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}}, unknown);
         updated();
     }
@@ -209,20 +213,21 @@ TEST_F(SceneStoreTest, MeshesThatAreNoneAreRefusedByRule) {
     EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha}, .uvs = uvs}), "");
     EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha}}), "mesh.mask");
     EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{3, 2}, alpha}, .uvs = uvs}), "mesh.mask");
-    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha, 0.0f}, .uvs = uvs}), "mesh.mask");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha, 0.0f}, .uvs = uvs}),
+              "mesh.mask");
 }
 
 TEST_F(SceneStoreTest, LightsKeepTheirHistoryWhenOthersComeAndGo) {
     const LightId first = store.add_light({.name = "lamp"}), second = store.add_light({.name = "lamp"});
     updated();
-    const std::uint64_t version = store.snapshot().lights[store.light_index(second)].version;
+    const std::uint64_t version = store.snapshot().lights[store.light_index(second)].shape_version;
     EXPECT_NE(store.snapshot().lights[0].name, store.snapshot().lights[1].name);
     store.remove(first);
     updated();
     ASSERT_EQ(store.snapshot().lights.size(), 1u);
     EXPECT_EQ(store.light_index(first), SceneStore::kNone);
     EXPECT_EQ(store.light_index(second), 0u);
-    EXPECT_EQ(store.snapshot().lights[0].version, version);
+    EXPECT_EQ(store.snapshot().lights[0].shape_version, version);
 }
 
 TEST_F(SceneStoreTest, ALightWithoutDirectionIsNamedAndComesBack) {

@@ -41,7 +41,7 @@ TEST_F(ExtractTest, AnUnchangedWorldChangesNothing) {
         update();
         EXPECT_THAT(snapshot.changed_instances, IsEmpty());
         EXPECT_EQ(snapshot.version, before.version);
-        EXPECT_EQ(snapshot.lights.at(0).version, before.lights.at(0).version);
+        EXPECT_EQ(snapshot.lights.at(0).shape_version, before.lights.at(0).shape_version);
         for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(snapshot.instances[k].version, before.instances[k].version);
     }
     EXPECT_EQ(snapshot.lights.at(0).entity, lamp);
@@ -126,7 +126,7 @@ TEST_F(ExtractTest, EveryChangeOfAnInstanceIsSeen) {
     EXPECT_EQ(item(stage.box).cast_layers, 0x02);
     EXPECT_EQ(item(stage.box).receive_layers, 0x04);
     EXPECT_EQ(item(stage.box).mesh, kMaskedBox);
-    EXPECT_TRUE(item(stage.box).mirrored);
+    EXPECT_TRUE(item(stage.box).winding.mirrored);
 }
 
 TEST_F(ExtractTest, OnlyWhatMapsShowAgesAnInstanceAndOnlyWhatItsRecordHoldsIsUploaded) {
@@ -162,9 +162,9 @@ TEST_F(ExtractTest, EveryChangeOfALightIsSeen) {
     const auto version_after = [&](auto edit) {
         edit();
         update();
-        return snapshot.lights.at(0).version;
+        return snapshot.version;
     };
-    std::uint64_t last = snapshot.lights.at(0).version;
+    std::uint64_t last = snapshot.version;
     const auto expect_aged = [&](std::uint64_t now) {
         EXPECT_GT(now, last);
         last = now;

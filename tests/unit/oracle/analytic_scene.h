@@ -50,7 +50,7 @@ struct AnalyticScene {
         item.basis = basis;
         item.translation_ws_m = at + offset_m;
         item.casts = true;
-        item.mirrored = glm::determinant(basis) < 0.0;
+        item.winding.mirrored = glm::determinant(basis) < 0.0;
         snapshot.instances.push_back(item);
         return snapshot.instances.back();
     }

@@ -4,6 +4,8 @@ add_test(NAME Arrows.EveryFileKeepsThem COMMAND Python3::Interpreter ${PROJECT_S
 add_test(NAME Arrows.AWrongOneIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_arrows.py --self-test)
 add_test(NAME Tables.CodeReadsTheirFacts COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_tables.py)
 add_test(NAME Tables.AComparisonIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_tables.py --self-test)
+add_test(NAME Sizes.StayWithinTheirLimits COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_sizes.py)
+add_test(NAME Sizes.WhatIsTooLargeIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_sizes.py --self-test)
 add_test(NAME Prose.BreachesOnlyFall COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_prose.py)
 add_test(NAME Prose.ABreachIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_prose.py --self-test)
 add_test(NAME Summary.CountsWhatCtestReports
@@ -13,6 +15,7 @@ add_test(NAME SamePictures.FindsWhatDiffers
 add_test(NAME Launcher.KeepsItsPromises
   COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/launcher_test.sh ${PROJECT_SOURCE_DIR}/gnomon)
 set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.CodeReadsTheirFacts Tables.AComparisonIsFound
+  Sizes.StayWithinTheirLimits Sizes.WhatIsTooLargeIsFound
   Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports SamePictures.FindsWhatDiffers
   Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)
 add_test(NAME Reference.HasNoWarning

@@ -34,7 +34,7 @@ struct Meshes {
         item.mesh = mesh;
         item.basis = basis;
         item.translation_ws_m = translation_ws_m;
-        item.mirrored = glm::determinant(basis) < 0.0;
+        item.winding.mirrored = glm::determinant(basis) < 0.0;
         item.bounds_ws = math::transformed(meshes[mesh].bounds_ms, basis, translation_ws_m);
         scene.instances.push_back(item);
         return scene.instances.back();
