@@ -51,7 +51,7 @@ CALLS_GL = ("engine/gl/", "window/", "examples/", "sample_game/gui/", "bench/emb
 # Rooms of a folder in the order of the flow: a file may include those of its own room and of rooms before it. What lies in the
 # folder itself may include all of them.
 ROOMS = {
-    "systems/shadow/": ("frame", "projection", "request", "culling", "fitting", "budget", "maps", "update", "exact", "passes",
+    "systems/shadow/": ("frame", "projection", "request", "culling", "fitting", "budget", "maps", "update", "passes", "exact",
                         "publish", "report"),
     "sample_game/": ("inside", "support", "game", "gui", "app"),
 }

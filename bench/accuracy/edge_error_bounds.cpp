@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "bench/glsl_on_cpu/cpu_lookup.h"
-#include "systems/shadow/budget/cost_model.h"
 #include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/request/accuracy_target.h"
+#include "systems/shadow/request/limited_request.h"
 #include "tests/oracle/fit_stages.h"
 
 namespace gnomon::bench {

@@ -13,6 +13,7 @@
 #include "systems/shadow/report/light_report.h"
 #include "systems/shadow/report/lighting_failures.h"
 #include "systems/shadow/request/decide_requests.h"
+#include "systems/shadow/request/limited_request.h"
 #include "systems/shadow/update/commit_maps.h"
 #include "systems/shadow/update/plan_updates.h"
 
@@ -202,25 +203,25 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     finish("maps");
     plan_updates(scene, gpu, {f.fitted, f.decisions, f.maps, budget_.draw_allowance()}, maps_, due_, f.updates);
     const DrawnViews views = drawn_views(f);
-    budget_.note_changes(scene, views, f.next_history);
     finish("update");
 
     const PassInputs passes{scene, gpu, views};
     depth_pass_.prepare(passes, accounts);
+    prefilter_pass_.prepare(passes, accounts);
     bounds_pass_.prepare(passes, accounts);
     pyramid_pass_.prepare(passes, accounts);
     measure_clearances(passes, f.clearances_m, f.cpu_us);
-    prefilter_pass_.prepare(passes, accounts);
+
+    depth_pass_.record(passes, out);
+    prefilter_pass_.record(passes, out);
+    bounds_pass_.record(passes, out);
+    pyramid_pass_.record(passes, out);
+    finish("passes");
+
     const bool masked = static_cast<bool>(gpu.caster_masks());
     publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked}, f.inputs,
                    f.cpu_us);
     finish("publish");
-
-    depth_pass_.record(passes, out);
-    bounds_pass_.record(passes, out);
-    pyramid_pass_.record(passes, out);
-    prefilter_pass_.record(passes, out);
-    finish("passes");
 }
 
 void ShadowSystem::finish(std::string_view stage) const {
@@ -256,6 +257,7 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
 
 void ShadowSystem::commit(const SceneSnapshot& scene, bool executed) {
     const bool takes_turns = budget_.limits().ns != BudgetLimits::kNone;
+    if (!reused_) budget_.note_changes(scene, drawn_views(frame_), frame_.next_history);
     commit_maps(scene, drawn_views(frame_), {executed, takes_turns}, maps_);
     rays_.submitted(executed);
     may_reuse_ = executed && (reused_ || is_settled(scene));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/shadow/request/limited_request.h"
+
 namespace gnomon::shadow {
 namespace {
 

@@ -11,6 +11,7 @@
 #include "systems/shadow/request/accuracy_target.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/limited_request.h"
 #include "systems/shadow/request/map_textures.h"
 
 namespace gnomon::shadow {
@@ -119,17 +120,6 @@ void cut(const LightLoad& load, const QualityLimits& grant, BudgetDecision& deci
 }
 
 }  // namespace
-
-void apply_last_limits(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
-                       std::vector<ShadowRequest>& limited) {
-    limited.assign(requests.begin(), requests.end());
-    std::size_t guess = 0;
-    for (std::size_t i = 0; i < limited.size(); ++i) {
-        if (limited[i].skip != Reason::none) continue;
-        const LightFitHistory* last = find(held, scene.lights[i].entity, guess++);
-        if (last && !last->budget.grant.none) limited[i] = granted(scene.lights[i], limited[i], last->budget.grant);
-    }
-}
 
 LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
                                std::uint32_t light, const LightFitHistory& next) const {

@@ -78,8 +78,4 @@ private:
     double lookups_ns_ = 0.0;  // time of all loads' lookups within their limits, ns
 };
 
-/// Applies each light's last limits to its request and writes the results to `limited`, one entry per light.
-void apply_last_limits(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
-                       std::vector<ShadowRequest>& limited);
-
 }  // namespace gnomon::shadow

@@ -7,6 +7,7 @@
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/request/limited_request.h"
 #include "systems/shadow/request/map_textures.h"
 
 namespace gnomon::shadow {
@@ -22,11 +23,6 @@ constexpr double kMotion_px_per_frame = 1280.0 / 300.0;
 constexpr double kTexelsPerCascade = 2.0;
 /// Share of a filter's pixels in which its first fetch does not settle the others, so that all are read.
 constexpr double kSeldom = 1.0 / 8.0;
-
-bool has_cascades(const LightItem& light, const ShadowRequest& request) {
-    return light_facts(light.kind).parallel && request.map.view_count > 1 &&
-           light.tuning.cascades.splits != CascadeSplits::manual;  // manual splits name all cascades
-}
 
 /// Clamps a share to 0..1; NaN counts as 1.
 double share_in_bounds(double share) { return share < 1.0 ? std::max(share, 0.0) : 1.0; }
@@ -66,32 +62,8 @@ double lookup_ns(const LightLoad& load, const ShadowRequest& given, const CostFa
 
 }  // namespace
 
-ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant) {
-    ShadowRequest request = wanted;
-    if (grant.none) return request;
-    if (grant.plain) request.map.filter = kCheapestFilter;
-    request.rays.used = request.rays.used && !grant.plain;
-    if (has_cascades(light, wanted)) {
-        request.map.view_count = std::clamp(grant.most_views, 1u, wanted.map.view_count);
-        request.limits.max_views = std::min(wanted.limits.max_views, std::max(grant.most_views, 1u));
-        if (request.map.view_count == 1) request.map.cascade_blend = 0.0f;
-    }
-    request.limits.max_px = std::min(wanted.limits.max_px, grant.most_px);
-    const std::uint32_t edge_px = std::min(wanted.map.resolution_px, request.limits.max_px);
-    if (edge_px != wanted.map.resolution_px || request.map.filter != wanted.map.filter)
-        set_resolution(light, edge_px, request);
-    return request;
-}
-
 std::uint32_t refresh_frames(const LightItem& light, const QualityLimits& grant) {
     return light.tuning.reuse.economy ? grant.refresh_frames : 1;
-}
-
-bool is_less(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant) {
-    return grant.none || (grant.plain && wanted.map.filter != kCheapestFilter) ||
-           grant.most_px < wanted.map.resolution_px ||
-           (has_cascades(light, wanted) && grant.most_views < wanted.map.view_count) ||
-           (grant.refresh_frames > 1 && light.tuning.reuse.economy);
 }
 
 double mean_fetches(const LightItem& light, const ShadowRequest& request, ShadowFilter filter) {

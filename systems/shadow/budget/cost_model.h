@@ -53,14 +53,8 @@ struct Cost {
     double harm = 0.0;     // share of the image that is wrong, by the model; 0: all as requested
 };
 
-/// Returns the request with the limits applied. QualityLimits::none leaves it unchanged.
-ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant);
-
 /// Returns the interval, in frames, at which a view of the light is drawn if only its casters changed.
 std::uint32_t refresh_frames(const LightItem& light, const QualityLimits& grant);
-
-/// Returns whether the limits give that request less than it needs.
-bool is_less(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant);
 
 Cost cost_of(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors);
 

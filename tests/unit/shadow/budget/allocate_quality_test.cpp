@@ -11,6 +11,7 @@
 
 #include "systems/shadow/budget/cost_calibration.h"
 #include "systems/shadow/request/decide_requests.h"
+#include "systems/shadow/request/limited_request.h"
 #include "systems/shadow/request/map_textures.h"
 
 namespace gnomon::shadow {
