@@ -21,7 +21,7 @@ protected:
         game::GlbBuilder glb;
         const std::uint32_t matt = glb.add_material({.name = "matt"});
         const auto add_light = [&](const char* name, const char* type, double intensity, const glm::dvec3& at_m) {
-            const std::uint32_t light = glb.add_light({{"type", type}, {"intensity", intensity}});
+            const std::uint32_t light = glb.add_light({.type = type, .intensity = intensity});
             glb.add_node({.name = name, .translation_m = at_m, .rotation = game::facing(-at_m), .light = light});
         };
         glb.add_node(
@@ -31,8 +31,7 @@ protected:
         add_light("sun", "directional", 50000.0, {-3.0, 4.0, -2.0});
         add_light("candle", "point", 1.0, {-2.0, 2.0, 1.0});
         add_light("off", "point", 0.0, {-2.0, 2.0, -1.0});
-        const std::uint32_t camera = glb.add_camera(
-            {{"name", "main"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.05}}}});
+        const std::uint32_t camera = glb.add_camera({.name = "main", .fov_y_rad = 0.8, .near_m = 0.05});
         const glm::dvec3 eye_m(3.6, 3.2, 5.2);
         glb.add_node({.name = "main", .translation_m = eye_m, .rotation = game::facing(-eye_m), .camera = camera});
         return glb.finish({.name = "scene"});

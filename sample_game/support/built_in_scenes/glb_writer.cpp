@@ -1,125 +1,181 @@
 #include "sample_game/support/built_in_scenes/glb_writer.h"
 
+#include <tiny_gltf.h>
+
 #include <array>
 #include <cstring>
 #include <glm/common.hpp>
 #include <limits>
+#include <sstream>
+#include <string_view>
 
 namespace gnomon::game {
 namespace {
 
-// Constants of the glTF 2.0 specification.
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
-constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
-constexpr std::uint32_t kMagic = 0x46546C67u, kVersion = 2u, kJsonChunk = 0x4E4F534Au, kBinaryChunk = 0x004E4942u;
-constexpr std::size_t kAlignment = 4, kHeaderBytes = 12, kChunkHeaderBytes = 8;
-
-void pad(std::vector<std::byte>& bytes, std::byte with) {
-    while (bytes.size() % kAlignment != 0) bytes.push_back(with);
-}
-
-void put_u32(std::vector<std::byte>& bytes, std::uint32_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xffu));
-}
-
-void put_chunk(std::vector<std::byte>& bytes, std::uint32_t type, const std::vector<std::byte>& content) {
-    put_u32(bytes, static_cast<std::uint32_t>(content.size()));
-    put_u32(bytes, type);
-    bytes.insert(bytes.end(), content.begin(), content.end());
-}
+constexpr std::size_t kAlignment = 4;
 
 template <class V>
-nlohmann::ordered_json to_array(const V& vector) {
-    nlohmann::ordered_json array = nlohmann::ordered_json::array();
-    for (glm::length_t i = 0; i < V::length(); ++i) array.push_back(vector[i]);
-    return array;
+std::vector<double> numbers_of(const V& vector) {
+    std::vector<double> numbers;
+    for (glm::length_t i = 0; i < V::length(); ++i) numbers.push_back(static_cast<double>(vector[i]));
+    return numbers;
+}
+
+template <class Item>
+std::uint32_t add(std::vector<Item>& items, Item item) {
+    items.push_back(std::move(item));
+    return static_cast<std::uint32_t>(items.size()) - 1u;
+}
+
+tinygltf::Value value_of(const nlohmann::ordered_json& json) {
+    if (json.is_boolean()) return tinygltf::Value(json.get<bool>());
+    if (json.is_number_integer()) return tinygltf::Value(json.get<int>());
+    if (json.is_number()) return tinygltf::Value(json.get<double>());
+    if (json.is_string()) return tinygltf::Value(json.get<std::string>());
+    if (json.is_array()) {
+        tinygltf::Value::Array items;
+        for (const auto& item : json) items.push_back(value_of(item));
+        return tinygltf::Value(items);
+    }
+    tinygltf::Value::Object members;
+    for (const auto& [key, member] : json.items()) members.emplace(key, value_of(member));
+    return tinygltf::Value(members);
+}
+
+/// Blanks the end of infinite projections. tinygltf 2.7 writes 0 for it, which glTF forbids.
+void blank_ends(std::string& glb) {
+    constexpr std::string_view kEnd = R"("zfar":0.0,)";
+    for (std::size_t at = glb.find(kEnd); at != std::string::npos; at = glb.find(kEnd, at))
+        glb.replace(at, kEnd.size(), kEnd.size(), ' ');
 }
 
 }  // namespace
 
-std::uint32_t GlbBuilder::add_view(std::span<const std::byte> bytes, std::optional<int> target) {
-    pad(binary_, std::byte{0});
-    Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
-    if (target) view["target"] = *target;
-    binary_.insert(binary_.end(), bytes.begin(), bytes.end());
-    views_.push_back(std::move(view));
-    return static_cast<std::uint32_t>(views_.size()) - 1u;
+GlbBuilder::GlbBuilder() : model_(std::make_unique<tinygltf::Model>()) {
+    model_->asset.version = "2.0";
+    model_->asset.generator = "gnomon_scene_generator";
+    model_->buffers.resize(1);
+    tinygltf::Sampler sampler;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    model_->samplers.push_back(sampler);
 }
 
-std::uint32_t GlbBuilder::add_accessor(Json accessor) {
-    accessors_.push_back(std::move(accessor));
-    return static_cast<std::uint32_t>(accessors_.size()) - 1u;
+GlbBuilder::~GlbBuilder() = default;
+
+int GlbBuilder::add_view(std::span<const std::byte> bytes, int target) {
+    std::vector<unsigned char>& binary = model_->buffers[0].data;
+    binary.resize((binary.size() + kAlignment - 1) / kAlignment * kAlignment);
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = binary.size();
+    view.byteLength = bytes.size();
+    view.target = target;
+    binary.resize(binary.size() + bytes.size());
+    if (!bytes.empty()) std::memcpy(binary.data() + view.byteOffset, bytes.data(), bytes.size());
+    return static_cast<int>(add(model_->bufferViews, view));
+}
+
+int GlbBuilder::add_accessor(int view, int component_type, std::size_t count, int type) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView = view;
+    accessor.componentType = component_type;
+    accessor.count = count;
+    accessor.type = type;
+    return static_cast<int>(add(model_->accessors, accessor));
+}
+
+int GlbBuilder::add_floats(std::span<const float> numbers, std::size_t width, int type) {
+    const int added =
+        add_accessor(add_view(std::as_bytes(numbers)), TINYGLTF_COMPONENT_TYPE_FLOAT, numbers.size() / width, type);
+    // glTF requires the range of key times.
+    if (width == 1) {
+        tinygltf::Accessor& accessor = model_->accessors.back();
+        accessor.minValues = {static_cast<double>(numbers.front())};
+        accessor.maxValues = {static_cast<double>(numbers.back())};
+    }
+    return added;
 }
 
 std::uint32_t GlbBuilder::add_texture(const std::string& name, std::span<const std::uint8_t> png) {
-    const std::uint32_t view = add_view(std::as_bytes(png), std::nullopt);
-    images_.push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
-    textures_.push_back({{"name", name}, {"sampler", 0}, {"source", images_.size() - 1}});
-    return static_cast<std::uint32_t>(textures_.size()) - 1u;
+    tinygltf::Image image;
+    image.name = name;
+    image.bufferView = add_view(std::as_bytes(png));
+    image.mimeType = "image/png";
+    tinygltf::Texture texture;
+    texture.name = name;
+    texture.sampler = 0;
+    texture.source = static_cast<int>(add(model_->images, image));
+    return add(model_->textures, texture);
 }
 
 std::uint32_t GlbBuilder::add_material(const MaterialSpec& spec) {
-    Json pbr = {{"baseColorFactor", to_array(spec.base_colour)},
-                {"metallicFactor", spec.metallic},
-                {"roughnessFactor", spec.roughness}};
-    if (spec.texture) pbr["baseColorTexture"] = {{"index", *spec.texture}};
-    Json material = {{"name", spec.name}, {"pbrMetallicRoughness", std::move(pbr)}};
-    if (spec.emissive != glm::vec3(0.0f)) material["emissiveFactor"] = to_array(spec.emissive);
+    tinygltf::Material material;
+    material.name = spec.name;
+    tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+    pbr.baseColorFactor = numbers_of(spec.base_colour);
+    pbr.metallicFactor = static_cast<double>(spec.metallic);
+    pbr.roughnessFactor = static_cast<double>(spec.roughness);
+    if (spec.texture) pbr.baseColorTexture.index = static_cast<int>(*spec.texture);
+    material.emissiveFactor = numbers_of(spec.emissive);
     if (spec.alpha_cutoff) {
-        material["alphaMode"] = "MASK";
-        material["alphaCutoff"] = *spec.alpha_cutoff;
+        material.alphaMode = "MASK";
+        material.alphaCutoff = static_cast<double>(*spec.alpha_cutoff);
     }
-    if (spec.double_sided) material["doubleSided"] = true;
-    materials_.push_back(std::move(material));
-    return static_cast<std::uint32_t>(materials_.size()) - 1u;
-}
-
-GlbBuilder::Json GlbBuilder::primitive(const PartSpec& part) {
-    const Shape& shape = part.shape;
-    glm::vec3 min(std::numeric_limits<float>::infinity()), max(-min);
-    for (const glm::vec3& p : shape.positions) {
-        min = glm::min(min, p);
-        max = glm::max(max, p);
-    }
-    const std::size_t count = shape.positions.size();
-    const auto vertex_accessor = [&](std::uint32_t view, const char* type) {
-        return Json{{"bufferView", view}, {"componentType", kFloat}, {"count", count}, {"type", type}};
-    };
-    Json positions = vertex_accessor(add_view(std::as_bytes(std::span(shape.positions)), kArrayBuffer), "VEC3");
-    positions["min"] = to_array(min);
-    positions["max"] = to_array(max);
-    Json normals = vertex_accessor(add_view(std::as_bytes(std::span(shape.normals)), kArrayBuffer), "VEC3");
-    Json uvs = vertex_accessor(add_view(std::as_bytes(std::span(shape.uvs)), kArrayBuffer), "VEC2");
-
-    const bool is_short = count < std::numeric_limits<std::uint16_t>::max();
-    const std::vector<std::uint16_t> narrow(shape.indices.begin(),
-                                            is_short ? shape.indices.end() : shape.indices.begin());
-    const std::uint32_t view = is_short ? add_view(std::as_bytes(std::span(narrow)), kElementArrayBuffer)
-                                        : add_view(std::as_bytes(std::span(shape.indices)), kElementArrayBuffer);
-    Json indices = {{"bufferView", view},
-                    {"componentType", is_short ? kUnsignedShort : kUnsignedInt},
-                    {"count", shape.indices.size()},
-                    {"type", "SCALAR"}};
-    Json attributes = {{"POSITION", add_accessor(std::move(positions))},
-                       {"NORMAL", add_accessor(std::move(normals))},
-                       {"TEXCOORD_0", add_accessor(std::move(uvs))}};
-    if (!part.joints.empty()) add_joints(part.joints, attributes);
-    return {{"attributes", std::move(attributes)},
-            {"indices", add_accessor(std::move(indices))},
-            {"material", part.material}};
+    material.doubleSided = spec.double_sided;
+    return add(model_->materials, material);
 }
 
 std::uint32_t GlbBuilder::add_mesh(const std::string& name, std::span<const PartSpec> parts) {
-    Json primitives = Json::array();
+    tinygltf::Mesh mesh;
+    mesh.name = name;
     std::uint64_t triangles = 0;
     for (const PartSpec& part : parts) {
-        primitives.push_back(primitive(part));
-        triangles += part.shape.indices.size() / 3;
+        const Shape& shape = part.shape;
+        const std::size_t count = shape.positions.size();
+        tinygltf::Primitive primitive;
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        primitive.material = static_cast<int>(part.material);
+        const auto add_attribute = [&](const char* attribute, std::span<const std::byte> bytes, int type) {
+            const int view = add_view(bytes, TINYGLTF_TARGET_ARRAY_BUFFER);
+            primitive.attributes[attribute] = add_accessor(view, TINYGLTF_COMPONENT_TYPE_FLOAT, count, type);
+        };
+        add_attribute("POSITION", std::as_bytes(std::span(shape.positions)), TINYGLTF_TYPE_VEC3);
+        glm::vec3 min(std::numeric_limits<float>::infinity()), max(-min);
+        for (const glm::vec3& p : shape.positions) {
+            min = glm::min(min, p);
+            max = glm::max(max, p);
+        }
+        model_->accessors.back().minValues = numbers_of(min);
+        model_->accessors.back().maxValues = numbers_of(max);
+        add_attribute("NORMAL", std::as_bytes(std::span(shape.normals)), TINYGLTF_TYPE_VEC3);
+        add_attribute("TEXCOORD_0", std::as_bytes(std::span(shape.uvs)), TINYGLTF_TYPE_VEC2);
+
+        const bool is_short = count < std::numeric_limits<std::uint16_t>::max();
+        const std::vector<std::uint16_t> narrow(shape.indices.begin(),
+                                                is_short ? shape.indices.end() : shape.indices.begin());
+        const auto bytes = is_short ? std::as_bytes(std::span(narrow)) : std::as_bytes(std::span(shape.indices));
+        primitive.indices =
+            add_accessor(add_view(bytes, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
+                         is_short ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                         shape.indices.size(), TINYGLTF_TYPE_SCALAR);
+        if (!part.joints.empty()) {
+            std::vector<std::array<std::uint8_t, 4>> joints;
+            std::vector<float> weights;
+            for (const JointShare& share : part.joints) {
+                joints.push_back({share.joint, share.other, 0, 0});
+                weights.insert(weights.end(), {1.0f - share.of_other, share.of_other, 0.0f, 0.0f});
+            }
+            primitive.attributes["JOINTS_0"] =
+                add_accessor(add_view(std::as_bytes(std::span(joints))), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                             joints.size(), TINYGLTF_TYPE_VEC4);
+            primitive.attributes["WEIGHTS_0"] = add_floats(weights, 4, TINYGLTF_TYPE_VEC4);
+        }
+        mesh.primitives.push_back(primitive);
+        triangles += shape.indices.size() / 3;
     }
-    meshes_.push_back({{"name", name}, {"primitives", std::move(primitives)}});
     mesh_triangles_.push_back(triangles);
-    return static_cast<std::uint32_t>(meshes_.size()) - 1u;
+    return add(model_->meshes, mesh);
 }
 
 std::uint32_t GlbBuilder::add_mesh(const std::string& name, const Shape& shape, std::uint32_t material) {
@@ -127,73 +183,100 @@ std::uint32_t GlbBuilder::add_mesh(const std::string& name, const Shape& shape, 
     return add_mesh(name, parts);
 }
 
-std::uint32_t GlbBuilder::add_light(Json light) {
-    lights_.push_back(std::move(light));
-    return static_cast<std::uint32_t>(lights_.size()) - 1u;
+std::uint32_t GlbBuilder::add_light(const LightSpec& spec) {
+    tinygltf::Light light;
+    light.type = spec.type;
+    light.color = numbers_of(spec.colour);
+    light.intensity = spec.intensity;
+    if (spec.cone) {
+        light.spot.innerConeAngle = spec.cone->inner_rad;
+        light.spot.outerConeAngle = spec.cone->outer_rad;
+    }
+    return add(model_->lights, light);
 }
 
-std::uint32_t GlbBuilder::add_camera(Json camera) {
-    cameras_.push_back(std::move(camera));
-    return static_cast<std::uint32_t>(cameras_.size()) - 1u;
+std::uint32_t GlbBuilder::add_camera(const CameraSpec& spec) {
+    tinygltf::Camera camera;
+    camera.name = spec.name;
+    camera.type = "perspective";
+    camera.perspective.yfov = spec.fov_y_rad;
+    camera.perspective.znear = spec.near_m;
+    return add(model_->cameras, camera);
+}
+
+std::uint32_t GlbBuilder::add_skin(const std::string& name, std::span<const JointSpec> joints) {
+    tinygltf::Skin skin;
+    skin.name = name;
+    std::vector<float> matrices;
+    for (const JointSpec& joint : joints) {
+        skin.joints.push_back(static_cast<int>(joint.node));
+        const glm::vec3 at(joint.rest_m);
+        matrices.insert(matrices.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -at.x, -at.y, -at.z, 1});
+    }
+    skin.inverseBindMatrices = add_floats(matrices, 16, TINYGLTF_TYPE_MAT4);
+    return add(model_->skins, skin);
+}
+
+std::uint32_t GlbBuilder::add_times(std::span<const float> times_s) {
+    return static_cast<std::uint32_t>(add_floats(times_s, 1, TINYGLTF_TYPE_SCALAR));
+}
+
+void GlbBuilder::add_animation(const std::string& name, std::span<const ChannelSpec> channels) {
+    tinygltf::Animation animation;
+    animation.name = name;
+    for (const ChannelSpec& spec : channels) {
+        const bool turns = spec.path == "rotation";
+        tinygltf::AnimationSampler sampler;
+        sampler.input = static_cast<int>(spec.times);
+        sampler.output = add_floats(spec.values, turns ? 4 : 3, turns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
+        tinygltf::AnimationChannel channel;
+        channel.sampler = static_cast<int>(add(animation.samplers, sampler));
+        channel.target_node = static_cast<int>(spec.node);
+        channel.target_path = spec.path;
+        animation.channels.push_back(channel);
+    }
+    model_->animations.push_back(animation);
 }
 
 std::uint32_t GlbBuilder::add_node(const NodeSpec& spec) {
-    const std::uint32_t index = static_cast<std::uint32_t>(nodes_.size());
-    Json node = {{"name", spec.name}};
-    if (spec.translation_m != glm::dvec3(0.0)) node["translation"] = to_array(spec.translation_m);
+    tinygltf::Node node;
+    node.name = spec.name;
+    if (spec.translation_m != glm::dvec3(0.0)) node.translation = numbers_of(spec.translation_m);
     if (spec.rotation != glm::dquat(1.0, 0.0, 0.0, 0.0))
-        node["rotation"] = {spec.rotation.x, spec.rotation.y, spec.rotation.z, spec.rotation.w};
+        node.rotation = {spec.rotation.x, spec.rotation.y, spec.rotation.z, spec.rotation.w};
     if (spec.mesh) {
-        node["mesh"] = *spec.mesh;
+        node.mesh = static_cast<int>(*spec.mesh);
         triangles_ += mesh_triangles_[*spec.mesh];
     }
-    if (spec.camera) node["camera"] = *spec.camera;
-    if (spec.light) node["extensions"]["KHR_lights_punctual"]["light"] = *spec.light;
-    if (!spec.extras.is_null()) node["extras"] = spec.extras;
-    nodes_.push_back(std::move(node));
-    if (spec.parent)
-        nodes_[*spec.parent]["children"].push_back(index);
-    else
-        top_nodes_.push_back(index);
+    if (spec.camera) node.camera = static_cast<int>(*spec.camera);
+    if (spec.light) node.extensions["KHR_lights_punctual"] = value_of({{"light", *spec.light}});
+    if (!spec.extras.is_null()) node.extras = value_of(spec.extras);
+    const std::uint32_t index = add(model_->nodes, node);
+    (spec.parent ? model_->nodes[*spec.parent].children : top_nodes_).push_back(static_cast<int>(index));
     return index;
 }
 
+void GlbBuilder::set_skin(std::uint32_t node, std::uint32_t skin) { model_->nodes[node].skin = static_cast<int>(skin); }
+
 std::vector<std::byte> GlbBuilder::finish(const RootSpec& root) {
-    Json root_node = {{"name", root.name}, {"children", top_nodes_}};
-    if (root.translation_m != glm::dvec3(0.0)) root_node["translation"] = to_array(root.translation_m);
-    if (root.scale != 1.0) root_node["scale"] = to_array(glm::dvec3(root.scale));
-    nodes_.push_back(std::move(root_node));
-    pad(binary_, std::byte{0});
+    tinygltf::Node node;
+    node.name = root.name;
+    node.children = top_nodes_;
+    if (root.translation_m != glm::dvec3(0.0)) node.translation = numbers_of(root.translation_m);
+    if (root.scale != 1.0) node.scale = numbers_of(glm::dvec3(root.scale));
+    tinygltf::Scene scene;
+    scene.name = root.name;
+    scene.nodes = {static_cast<int>(add(model_->nodes, node))};
+    model_->scenes = {scene};
+    model_->defaultScene = 0;
 
-    Json document = {{"asset", {{"version", "2.0"}, {"generator", "gnomon_scene_generator"}}},
-                     {"scene", 0},
-                     {"scenes", {{{"name", root.name}, {"nodes", {nodes_.size() - 1}}}}},
-                     {"nodes", nodes_},
-                     {"meshes", meshes_},
-                     {"materials", materials_},
-                     {"textures", textures_},
-                     {"images", images_},
-                     {"samplers", {{{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}}}},
-                     {"cameras", cameras_},
-                     {"accessors", accessors_},
-                     {"bufferViews", views_},
-                     {"buffers", {{{"byteLength", binary_.size()}}}},
-                     {"extensionsUsed", {"KHR_lights_punctual"}},
-                     {"extensions", {{"KHR_lights_punctual", {{"lights", lights_}}}}}};
-    if (!skins_.empty()) document["skins"] = skins_;
-    if (!animations_.empty()) document["animations"] = animations_;
-    const std::string text = document.dump();
-    std::vector<std::byte> json(text.size());
-    std::memcpy(json.data(), text.data(), text.size());
-    pad(json, static_cast<std::byte>(' '));
-
-    std::vector<std::byte> glb;
-    put_u32(glb, kMagic);
-    put_u32(glb, kVersion);
-    put_u32(glb, static_cast<std::uint32_t>(kHeaderBytes + 2 * kChunkHeaderBytes + json.size() + binary_.size()));
-    put_chunk(glb, kJsonChunk, json);
-    put_chunk(glb, kBinaryChunk, binary_);
-    return glb;
+    std::ostringstream stream;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(model_.get(), stream, false, true);
+    std::string glb = stream.str();
+    blank_ends(glb);
+    std::vector<std::byte> bytes(glb.size());
+    std::memcpy(bytes.data(), glb.data(), glb.size());
+    return bytes;
 }
 
 }  // namespace gnomon::game

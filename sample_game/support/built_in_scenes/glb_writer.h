@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -11,6 +12,10 @@
 #include <vector>
 
 #include "sample_game/support/built_in_scenes/primitives.h"
+
+namespace tinygltf {
+class Model;
+}
 
 namespace gnomon::game {
 
@@ -51,6 +56,25 @@ struct ChannelSpec {
     std::vector<float> values = {};
 };
 
+/// Cone of a spot: half angles, radians.
+struct ConeSpec {
+    double inner_rad = 0.0, outer_rad = 0.785398163;
+};
+
+/// Light of KHR_lights_punctual: directional, point, or spot with a cone.
+struct LightSpec {
+    std::string type;
+    glm::dvec3 colour{1.0};
+    double intensity = 1.0;
+    std::optional<ConeSpec> cone = {};
+};
+
+/// Perspective camera without an end.
+struct CameraSpec {
+    std::string name;
+    double fov_y_rad = 0.9, near_m = 0.1;
+};
+
 struct NodeSpec {
     std::string name;
     std::optional<std::uint32_t> parent = {};  // result of add_node(); empty: below the root
@@ -67,22 +91,25 @@ struct RootSpec {
 };
 
 /// Collects a scene and writes it as binary glTF 2.0 with one buffer. Same calls, same bytes.
-/// Written by hand, since the writer of tinygltf (2.7) cannot leave out the `zfar` of a camera. It writes 0 for an
-/// infinite projection, which glTF forbids.
 class GlbBuilder {
 public:
+    GlbBuilder();
+    ~GlbBuilder();
+    GlbBuilder(const GlbBuilder&) = delete;
+    GlbBuilder& operator=(const GlbBuilder&) = delete;
+
     std::uint32_t add_texture(const std::string& name, std::span<const std::uint8_t> png);
     std::uint32_t add_material(const MaterialSpec& spec);
     std::uint32_t add_mesh(const std::string& name, std::span<const PartSpec> parts);
     std::uint32_t add_mesh(const std::string& name, const Shape& shape, std::uint32_t material);
-    std::uint32_t add_light(nlohmann::ordered_json light);    // an object of KHR_lights_punctual
-    std::uint32_t add_camera(nlohmann::ordered_json camera);  // an object of glTF's cameras
+    std::uint32_t add_light(const LightSpec& spec);
+    std::uint32_t add_camera(const CameraSpec& spec);
     std::uint32_t add_skin(const std::string& name, std::span<const JointSpec> joints);
     std::uint32_t add_times(std::span<const float> times_s);  // rising
     void add_animation(const std::string& name, std::span<const ChannelSpec> channels);
     std::uint32_t add_node(const NodeSpec& spec);
     /// Sets the skin of a node that was added before it.
-    void set_skin(std::uint32_t node, std::uint32_t skin) { nodes_[node]["skin"] = skin; }
+    void set_skin(std::uint32_t node, std::uint32_t skin);
 
     /// Returns the file. Makes every node without a parent a child of one root.
     std::vector<std::byte> finish(const RootSpec& root);
@@ -90,18 +117,12 @@ public:
     std::uint64_t triangle_count() const { return triangles_; }  // over all nodes with a mesh
 
 private:
-    using Json = nlohmann::ordered_json;
-    std::uint32_t add_view(std::span<const std::byte> bytes, std::optional<int> target);
-    std::uint32_t add_accessor(Json accessor);
-    std::uint32_t add_floats(std::span<const float> numbers, std::size_t width, const char* type);
-    void add_joints(std::span<const JointShare> shares, Json& attributes);
-    Json primitive(const PartSpec& part);
+    int add_view(std::span<const std::byte> bytes, int target = 0);  // target 0: none
+    int add_accessor(int view, int component_type, std::size_t count, int type);
+    int add_floats(std::span<const float> numbers, std::size_t width, int type);
 
-    std::vector<std::byte> binary_;
-    Json views_ = Json::array(), accessors_ = Json::array(), images_ = Json::array(), textures_ = Json::array();
-    Json materials_ = Json::array(), meshes_ = Json::array(), lights_ = Json::array(), cameras_ = Json::array();
-    Json nodes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array();
-    std::vector<std::uint32_t> top_nodes_;
+    std::unique_ptr<tinygltf::Model> model_;
+    std::vector<int> top_nodes_;
     std::vector<std::uint64_t> mesh_triangles_;
     std::uint64_t triangles_ = 0;
 };

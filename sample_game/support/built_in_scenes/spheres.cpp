@@ -54,10 +54,9 @@ Spheres make_spheres() {
     }
     add_tubes(glb, iron);
     const glm::dvec3 from_sun(0.6, -0.75, 0.35);
-    const std::uint32_t sun = glb.add_light({{"type", "directional"}, {"intensity", 20000.0}});
+    const std::uint32_t sun = glb.add_light({.type = "directional", .intensity = 20000.0});
     glb.add_node({.name = "sun", .translation_m = -20.0 * from_sun, .rotation = facing(from_sun), .light = sun});
-    const std::uint32_t camera = glb.add_camera(
-        {{"name", "main"}, {"type", "perspective"}, {"perspective", {{"yfov", glm::radians(50.0)}, {"znear", 0.1}}}});
+    const std::uint32_t camera = glb.add_camera({.name = "main", .fov_y_rad = glm::radians(50.0), .near_m = 0.1});
     const glm::dvec3 at_m(7.5, 5.0, 9.0);
     glb.add_node({.name = "main", .translation_m = at_m, .rotation = facing(-at_m), .camera = camera});
     Spheres spheres;

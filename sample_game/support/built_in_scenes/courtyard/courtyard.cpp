@@ -41,11 +41,8 @@ void add_cameras(const Kit& kit) {
                           {"top", {0.0, 30.0, 6.0}, {0.0, 0.0, -0.4}, 45.0},
                           {"low", {-6.5, 0.6, 7.6}, {0.8, 1.5, -1.5}, 60.0}};
     for (const View& view : views) {
-        // No zfar: an infinite projection.
         const std::uint32_t camera = kit.glb.add_camera(
-            {{"name", view.name},
-             {"type", "perspective"},
-             {"perspective", {{"yfov", glm::radians(view.fov_y_deg)}, {"znear", kNear_m * kit.options.scale}}}});
+            {.name = view.name, .fov_y_rad = glm::radians(view.fov_y_deg), .near_m = kNear_m * kit.options.scale});
         kit.glb.add_node({.name = view.name,
                           .translation_m = view.at_m,
                           .rotation = facing(view.target_m - view.at_m),

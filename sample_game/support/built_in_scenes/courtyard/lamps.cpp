@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <string_view>
 
 #include "sample_game/support/built_in_scenes/courtyard/parts.h"
@@ -13,13 +14,10 @@ namespace {
 constexpr double kSun_lx = 60.0, kLantern_cd = 750.0, kGuard_cd = 18000.0;
 
 std::uint32_t add_light(const Kit& kit, const char* type, const glm::dvec3& colour, double intensity,
-                        nlohmann::ordered_json spot = {}) {
+                        std::optional<ConeSpec> cone = {}) {
     // Candela grow with the square of the size, or a larger courtyard would be darker.
     const double area = std::string_view(type) == "directional" ? 1.0 : kit.options.scale * kit.options.scale;
-    nlohmann::ordered_json light = {
-        {"type", type}, {"color", {colour.x, colour.y, colour.z}}, {"intensity", intensity * area}};
-    if (!spot.is_null()) light["spot"] = std::move(spot);
-    return kit.glb.add_light(std::move(light));
+    return kit.glb.add_light({type, colour, intensity * area, cone});
 }
 
 void add_sun(const Kit& kit) {
@@ -94,12 +92,11 @@ void add_guard_lamp(const Kit& kit) {
     const glm::dquat along_forward = aim * glm::angleAxis(-0.5 * glm::pi<double>(), glm::dvec3(1.0, 0.0, 0.0));
     kit.place("guard_housing", make_lathe(housing, 24, LatheNormals::creased), kit.materials.iron, {}, along_forward,
               head);
-    kit.glb.add_node(
-        {.name = "guard_lamp",
-         .parent = head,
-         .rotation = aim,
-         .light = add_light(kit, "spot", {0.78, 0.88, 1.0}, kGuard_cd,
-                            {{"innerConeAngle", glm::radians(17.0)}, {"outerConeAngle", glm::radians(21.0)}})});
+    kit.glb.add_node({.name = "guard_lamp",
+                      .parent = head,
+                      .rotation = aim,
+                      .light = add_light(kit, "spot", {0.78, 0.88, 1.0}, kGuard_cd,
+                                         ConeSpec{glm::radians(17.0), glm::radians(21.0)})});
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void add_sun(GlbBuilder& glb) {
     const glm::dvec3 to_sun(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
                             std::cos(elevation) * std::sin(azimuth));
     const std::uint32_t light =
-        glb.add_light({{"type", "directional"}, {"color", {1.0, 0.93, 0.83}}, {"intensity", 20000.0}});
+        glb.add_light({.type = "directional", .colour = {1.0, 0.93, 0.83}, .intensity = 20000.0});
     glb.add_node({.name = "sun", .translation_m = 100.0 * to_sun, .rotation = facing(-to_sun), .light = light});
 }
 
@@ -46,9 +46,7 @@ void add_valley_cameras(GlbBuilder& glb) {
                           {"hill", 260.0, 190.0, 30.0, {-40.0, 0.0, -260.0}}};
     for (const View& view : views) {
         const std::uint32_t camera =
-            glb.add_camera({{"name", view.name},
-                            {"type", "perspective"},
-                            {"perspective", {{"yfov", glm::radians(kFov_deg)}, {"znear", kNear_m}}}});
+            glb.add_camera({.name = view.name, .fov_y_rad = glm::radians(kFov_deg), .near_m = kNear_m});
         const glm::dvec3 at_m(view.x_m, ground_height_m(view.x_m, view.z_m) + view.above_m, view.z_m);
         glb.add_node(
             {.name = view.name, .translation_m = at_m, .rotation = facing(view.target_m - at_m), .camera = camera});
