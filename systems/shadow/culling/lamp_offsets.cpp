@@ -82,32 +82,20 @@ void LampOffsets::add_side(Side side) {
 }
 
 void LampOffsets::find_sides(const GpuScene& gpu, const LightItem& light, const InstanceItem& item, double share) {
-    const GpuScene::MeshShape shape = gpu.shape(item.mesh);
-    const GpuScene::MeshRange& mesh = gpu.mesh(item.mesh);
-    const auto& indices = *shape.indices;
-    const glm::dvec3 origin = item.translation_ws_m - light.position_ws_m;
     const double reach_m = math::farthest_distance(item.bounds_ws, light.position_ws_m);
     const double size_m = largest(item.translation_ws_m) + largest(light.position_ws_m) + reach_m;
-    for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
-        const GpuScene::SubmeshRange& submesh = gpu.submesh(mesh.first_submesh + s);
-        if (gpu.material(submesh.material).alpha_mode == assets::AlphaMode::blend) continue;
-        const std::size_t first = submesh.first_index - mesh.first_index;
-        for (std::size_t i = first; i + 2 < first + submesh.index_count; i += 3) {
-            Corners c;
-            for (std::size_t k = 0; k < 3; ++k)
-                c[k] = origin + item.basis * glm::dvec3((*shape.vertices)[indices[i + k]].position_ms);
-            const double corner_m = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});
-            const double clear_m = std::max(kClearOfPlanes * reach_m, share * corner_m);
-            if (!(distance_to(c) < clear_m)) continue;
-            const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]) * (item.winding.mirrored ? -1.0 : 1.0);
-            const double area = glm::length(across);
-            if (!(area > 0.0)) continue;
-            const double height_m = -glm::dot(across, c[0]) / area;
-            const bool in_plane = std::abs(height_m) <= kPlaneUnits * size_m;
-            const double side = in_plane || height_m > 0.0 ? 1.0 : -1.0;
-            add_side({across * (side / area), std::abs(height_m), clear_m, in_plane});
-        }
-    }
+    visit_triangles(gpu, item, light.position_ws_m, [&](const Corners& c) {
+        const double corner_m = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});
+        const double clear_m = std::max(kClearOfPlanes * reach_m, share * corner_m);
+        if (!(distance_to(c) < clear_m)) return;
+        const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]) * (item.winding.mirrored ? -1.0 : 1.0);
+        const double area = glm::length(across);
+        if (!(area > 0.0)) return;
+        const double height_m = -glm::dot(across, c[0]) / area;
+        const bool in_plane = std::abs(height_m) <= kPlaneUnits * size_m;
+        const double side = in_plane || height_m > 0.0 ? 1.0 : -1.0;
+        add_side({across * (side / area), std::abs(height_m), clear_m, in_plane});
+    });
 }
 
 /// Computes the offset that lifts the lamp to the target height above all planes, by projections onto them in turn.

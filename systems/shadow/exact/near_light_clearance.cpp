@@ -60,7 +60,11 @@ public:
             return reaches ? math::Overlap::partial : math::Overlap::outside;
         };
         visit_instances(scene_, near_enough, [this](std::uint32_t i) {
-            if (casts_under(light_, scene_.instances[i])) visit(scene_.instances[i]);
+            if (!casts_under(light_, scene_.instances[i])) return;
+            visit_triangles(gpu_, scene_.instances[i], light_.position_ws_m, [this](const Corners& c) {
+                const double distance_m = distance_to(c);
+                if (distance_m < least_m_ && counts(c)) least_m_ = distance_m;
+            });
         });
         return least_m_;
     }
@@ -71,25 +75,6 @@ private:
     static glm::dmat3 turned_axes(std::uint32_t face) {
         const CubeFace& axes = cube_face(face);
         return glm::mat3_cast(cube_turn()) * glm::dmat3(axes.axis_u, axes.axis_v, axes.axis_back);
-    }
-
-    void visit(const InstanceItem& item) {
-        const GpuScene::MeshShape shape = gpu_.shape(item.mesh);
-        const GpuScene::MeshRange& mesh = gpu_.mesh(item.mesh);
-        const auto& indices = *shape.indices;
-        const glm::dvec3 origin = item.translation_ws_m - light_.position_ws_m;
-        for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
-            const GpuScene::SubmeshRange& submesh = gpu_.submesh(mesh.first_submesh + s);
-            if (gpu_.material(submesh.material).alpha_mode == assets::AlphaMode::blend) continue;
-            const std::size_t first = submesh.first_index - mesh.first_index;
-            for (std::size_t i = first; i + 2 < first + submesh.index_count; i += 3) {
-                Corners c;
-                for (std::size_t k = 0; k < 3; ++k)
-                    c[k] = origin + item.basis * glm::dvec3((*shape.vertices)[indices[i + k]].position_ms);
-                const double distance_m = distance_to(c);
-                if (distance_m < least_m_ && counts(c)) least_m_ = distance_m;
-            }
-        }
     }
 
     /// Returns whether a triangle counts for any light frustum. A place in one frustum knows of it from that frustum's
