@@ -80,6 +80,13 @@ void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHi
     soft.metrics = oracle::compare_soft(hits, soft.truth, accuracy.measured);
 }
 
+void judge_area(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& scene,
+                std::uint32_t light, std::uint32_t side, LightAccuracy& accuracy) {
+    AreaAccuracy& area = accuracy.area.emplace();
+    area.truth = tracer.trace_area(scene.consumers.front(), hits, accuracy.truth, scene.lights[light], {side});
+    area.metrics = oracle::compare_area(area.truth, accuracy.measured, accuracy.truth.ambiguous);
+}
+
 PromisedErrors promised_errors(const LightAccuracy& light) {
     const oracle::Metrics& m = light.metrics;
     const oracle::FarErrors& far = light.far;
@@ -101,6 +108,8 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         if (other) accuracy.lights[k].other_surface = leave_out(*other, accuracy.lights[k].truth);
         if (oracle::source_size(light) > 0.0 && !is_left_out(accuracy.lights[k].report))
             judge_source(tracer, hits, light, accuracy.lights[k]);
+        if (options.area_side > 0 && !is_left_out(accuracy.lights[k].report))
+            judge_area(tracer, hits, snapshot, indices[k], options.area_side, accuracy.lights[k]);
     }
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;

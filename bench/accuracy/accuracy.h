@@ -10,6 +10,7 @@
 #include "bench/common/stage.h"
 #include "gnomon/frame.h"
 #include "gnomon/result.h"
+#include "tests/oracle/area_truth.h"
 #include "tests/oracle/edge_exceptions.h"
 #include "tests/oracle/far_errors.h"
 #include "tests/oracle/metrics.h"
@@ -25,6 +26,12 @@ struct SoftAccuracy {
     oracle::SoftMetrics metrics;
 };
 
+/// Against the truth about the lit share of each pixel's area.
+struct AreaAccuracy {
+    oracle::AreaTruth truth;
+    oracle::AreaMetrics metrics;
+};
+
 struct LightAccuracy {
     LightReport report;  // report of the measured frame; is_left_out(): nothing below is counted
     oracle::Metrics metrics;
@@ -38,6 +45,7 @@ struct LightAccuracy {
         promised;  // errors that defaults are judged by; none if the filter softens by the source's size
     std::size_t beyond_stated = 0;     // scored pixels with a larger bound than their view states for their slope: 0
     std::optional<SoftAccuracy> soft;  // accuracy about a source with a size; empty: the light has none
+    std::optional<AreaAccuracy> area;  // empty: AccuracyOptions::area_side is 0
     Spread gpu_us, cpu_us;             // shadow and lighting pass, economy off: every view drawn in every frame
     std::size_t redrawn_differs = 0;   // pixels that changed when every view was drawn again; must be 0
 };
@@ -55,6 +63,7 @@ struct Accuracy {
 struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_ambiguous = true;
+    std::uint32_t area_side = 0;  // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
     double telling = 1.0;  // factor on predicted texels, see EdgeBounds::at()
     double wished = 1.0;   // factor on max_error_px, see EdgeBounds::promised()
 };

@@ -30,6 +30,13 @@ Json to_json(const SoftAccuracy& soft) {
         {"width_ratio", {{"p10", m.widths.p10_ratio}, {"median", m.widths.median_ratio}, {"p90", m.widths.p90_ratio}}}};
 }
 
+Json to_json(const AreaAccuracy& area) {
+    const oracle::AreaMetrics& m = area.metrics;
+    return {{"crossed_px", m.crossed},         {"mean_error", m.mean_error}, {"bias", m.bias},
+            {"p99_error", m.p99_error},        {"uncrossed_px", m.uncrossed}, {"uncrossed_error", m.uncrossed_error},
+            {"partial_px", m.partial},         {"partial_error", m.partial_error}};
+}
+
 /// Adds the figures that are counted against the truth.
 void add_errors(const LightAccuracy& light, Json& json) {
     const oracle::Metrics& m = light.metrics;
@@ -78,6 +85,7 @@ Json to_json(const LightAccuracy& light) {
     json["bytes"] = light.report.counts.bytes;
     json["redrawn_differs_px"] = light.redrawn_differs;
     json["soft"] = light.soft ? to_json(*light.soft) : Json(nullptr);
+    json["area"] = light.area ? to_json(*light.area) : Json(nullptr);
     json["gpu_us"] = to_json(light.gpu_us);
     json["cpu_us"] = to_json(light.cpu_us);
     return json;

@@ -57,6 +57,26 @@ void append_soft(const Accuracy& accuracy, std::string& text) {
     }
 }
 
+void append_area(const Accuracy& accuracy, std::string& text) {
+    const auto has_area = [](const LightAccuracy& light) { return light.area.has_value(); };
+    if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), has_area)) return;
+    text += formatted("\n%-18s %8s %8s %8s %8s %9s %9s %8s %8s\n", "edges by area", "crossed", "error", "bias", "p99",
+                      "uncrossed", "error%", "partial", "error");
+    for (const LightAccuracy& light : accuracy.lights) {
+        if (!light.area) continue;
+        const oracle::AreaMetrics& m = light.area->metrics;
+        text += formatted("%-18.18s %8zu %8.4f %+8.4f %8.4f %9zu %9.5f %8zu %8.4f\n", light.report.name.c_str(),
+                          m.crossed, m.mean_error, m.bias, m.p99_error, m.uncrossed, kPercent * m.uncrossed_error,
+                          m.partial, m.partial_error);
+    }
+    text +=
+        "\ncrossed: pixels with an area of one surface that the light reaches in part. error: mean difference from that "
+        "part;\n"
+        "bias: its mean with its sign, above 0 too bright. uncrossed: pixels that it reaches wholly or not at all. "
+        "partial:\n"
+        "crossed pixels that show another surface, too.\n";
+}
+
 }  // namespace
 
 std::string accuracy_legend() {
@@ -91,6 +111,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
                       "lost", "at most", "cover", "texels", "MB", "ms (least-most)", "state");
     for (const LightAccuracy& light : accuracy.lights) append_edges(light, text);
     append_soft(accuracy, text);
+    append_area(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
             text += formatted(

@@ -37,6 +37,12 @@ std::optional<Error> write_heat_pictures(const Accuracy& accuracy, const std::fi
                                  light.truth.ambiguous[i] != 0});
         };
         if (auto error = write(accuracy, file("_truth.png"), truth)) return error;
+        const auto area = [&](std::size_t i) {
+            const float lit = light.area->truth.lit[i];
+            return visibility_colour(lit >= 0.0f ? lit : light.truth.visibility[i]);
+        };
+        if (light.area)
+            if (auto error = write(accuracy, file("_area.png"), area)) return error;
         if (auto error = write(accuracy, file("_measured.png"), measured)) return error;
         if (auto error = write(accuracy, file("_error.png"), off)) return error;
     }

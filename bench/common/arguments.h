@@ -24,7 +24,7 @@ struct Arguments {
     StageOptions stage;
     std::vector<std::string> scenes, against;
     std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
-    std::uint32_t repeat = 9, rounds = 5;
+    std::uint32_t repeat = 9, rounds = 5, area_side = 0;
     StabilityOptions stability;
     std::string plot, drawings, filters, rows, markdown;
     DemandOptions demand;

@@ -11,6 +11,7 @@
 namespace gnomon::bench {
 namespace {
 
+constexpr std::uint32_t kMostAreaSide = 64;
 constexpr std::uint32_t kMaxRepeats = 100000;
 constexpr std::uint32_t kMostLights = 100000;
 constexpr std::uint32_t kMaxPoints = 10000000;
@@ -56,6 +57,10 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     command.add_flag("--quick", arguments.quick, "the same as --sweep quick");
     command.add_option("--out", arguments.out, "with --sweep: folder of the report, and of what it goes on from")
         ->capture_default_str();
+    command
+        .add_option("--area", arguments.area_side,
+                    "judge edges by the lit share of each pixel's area as well, by N x N rays a pixel: 16 for figures")
+        ->check(CLI::Range(0u, kMostAreaSide));
     command.add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
     command.add_option("--filters", arguments.rows,
                        "cost and error of rows of the filter table: all, or part of a name");

@@ -41,6 +41,8 @@ struct LightTruth {
 
 struct SoftTruth;  // soft_truth.h
 struct SourceSampling;
+struct AreaTruth;  // area_truth.h
+struct AreaSampling;
 
 inline constexpr double kMinCosine = 1.0e-4;  // below it shading is nothing, so visibility decides nothing
 inline constexpr double kJitter = 1.0e-6;     // about 6 times the error of a position rebuilt from float depth
@@ -84,6 +86,11 @@ public:
     /// Computes the fraction of the light's source that each surface sees. The source is a disk around the light's
     /// middle that faces the surface. Only rays that leave the surface count. Casters and receivers: as in trace_light.
     SoftTruth trace_source(const PrimaryHits& hits, const LightItem& light, const SourceSampling& sampling) const;
+
+    /// Computes the share of each pixel's area on the seen surface that the light's middle reaches. `hits`: what
+    /// `camera` sees. `middles`: trace_light's result for the light.
+    AreaTruth trace_area(const ConsumerItem& camera, const PrimaryHits& hits, const LightTruth& middles,
+                         const LightItem& light, const AreaSampling& sampling) const;
 
     /// Returns a caster's triangle between the light and the point, at least `least_m` from the point, or kNoTriangle.
     /// The point lies on the plane of `triangle`, also beyond its borders. Ignores the light's range and cone.

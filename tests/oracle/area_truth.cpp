@@ -1,0 +1,178 @@
+#include "tests/oracle/area_truth.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/oracle/light_reach.h"
+#include "tests/oracle/parallel_rows.h"
+#include "tests/oracle/pixel_ray.h"
+#include "tests/oracle/reference_world.h"
+
+namespace gnomon::oracle {
+namespace {
+
+/// What the places of a pixel found.
+struct Places {
+    std::uint32_t all = 0, seen = 0, lit = 0;  // all places; those on the seen surface; the lit ones of these
+    bool faces = true;                         // false: the light does not reach or face some place
+    bool mixed() const { return !faces || seen < all || (lit > 0 && lit < seen); }
+    bool is_lit() const { return lit > 0; }
+};
+
+class AreaTracer {
+public:
+    AreaTracer(const TracedWorld& world, const ConsumerItem& camera, const PrimaryHits& hits, const LightItem& light)
+        : world_(world), camera_(camera), hits_(hits), light_(light),
+          light_rel_m_(light.position_ws_m - world.origin_ws_m()) {}
+
+    Places trace(std::size_t pixel, std::uint32_t side, std::uint32_t& hint) const {
+        const glm::dvec2 centre(static_cast<double>(pixel % hits_.size_px.x), static_cast<double>(pixel / hits_.size_px.x));
+        Places places;
+        places.all = side * side;
+        const double within_m = kSameSurface_px * pixel_width_m(pixel, centre);
+        for (std::uint32_t i = 0; i < side * side && places.faces; ++i) {
+            const glm::dvec2 in_square = (glm::dvec2(i % side, i / side) + 0.5) / static_cast<double>(side) - 0.5;
+            add_place(pixel, centre + in_square, within_m, places, hint);
+        }
+        return places;
+    }
+
+private:
+    /// Returns the width of a pixel across its ray at the seen place.
+    double pixel_width_m(std::size_t pixel, const glm::dvec2& centre) const {
+        const PixelRay here = pixel_ray(camera_, hits_.camera_rel_m, centre);
+        const PixelRay beside = pixel_ray(camera_, hits_.camera_rel_m, centre + glm::dvec2(0.0, 1.0));
+        const double along = glm::dot(here.ray.direction, here.ray.direction);
+        const double t = glm::dot(hits_.position_rel_m[pixel] - here.ray.origin, here.ray.direction) / along;
+        return glm::length(beside.ray.origin - here.ray.origin + (beside.ray.direction - here.ray.direction) * t);
+    }
+
+    void add_place(std::size_t pixel, const glm::dvec2& at_px, double within_m, Places& places,
+                   std::uint32_t& hint) const {
+        const PixelRay seen = pixel_ray(camera_, hits_.camera_rel_m, at_px);
+        const SurfaceHit hit = world_.nearest_surface(seen.ray, seen.t_min, seen.t_max);
+        if (hit.triangle == kNoTriangle) return;
+        const WorldTriangle& triangle = world_.triangles()[hit.triangle];
+        const glm::dvec3 front = glm::normalize(front_normal(triangle));
+        glm::dvec3 point = seen.ray.origin + seen.ray.direction * hit.t;
+        point -= front * glm::dot(front, point - triangle.a);
+        const double off_m = glm::dot(hits_.normal_ws[pixel], point - hits_.position_rel_m[pixel]);
+        if (!(std::abs(off_m) <= within_m)) return;
+        const glm::dvec3 normal = glm::dot(front, seen.ray.direction) > 0.0 ? -front : front;
+        glm::dvec3 to_light;
+        double t_max = 0.0;
+        const bool reached = reach(light_, light_rel_m_, point, to_light, t_max);
+        places.faces = reached && cosine_between(normal, to_light) > kMinCosine;
+        if (!places.faces) return;
+        ++places.seen;
+        const ShadowLayers layers = light_.shadow.layers;
+        if ((triangle.receive_layers & layers) == 0) {
+            ++places.lit;
+            return;
+        }
+        const std::uint32_t found = world_.occluder(make_ray(point, to_light), t_max, hit.triangle, hint, layers);
+        if (found == kNoTriangle)
+            ++places.lit;
+        else
+            hint = found;
+    }
+
+    const TracedWorld& world_;
+    const ConsumerItem& camera_;
+    const PrimaryHits& hits_;
+    const LightItem& light_;
+    glm::dvec3 light_rel_m_;
+};
+
+// Rays that go first, along a side. Pixels with other results, or neighbours with other results, get more.
+constexpr std::array<std::uint32_t, 2> kFirst{2, 4};
+
+}  // namespace
+
+AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryHits& hits, const LightTruth& middles,
+                                      const LightItem& light, const AreaSampling& sampling) const {
+    const AreaTracer tracer(world_->traced, camera, hits, light);
+    const glm::ivec2 size(hits.size_px);
+    AreaTruth truth;
+    truth.lit.assign(hits.count(), -1.0f);
+    truth.area.assign(hits.count(), PixelArea::unscored);
+    std::vector<Places> found(hits.count());
+    // Whether a pixel of the square of 3 x 3 around it differs from it, or a pixel's own places do.
+    const auto undecided = [&](const std::vector<Places>& of, const glm::ivec2& at) {
+        const auto places = [&](int x, int y) -> const Places& {
+            return of[static_cast<std::size_t>(y) * hits.size_px.x + static_cast<std::size_t>(x)];
+        };
+        const Places& own = places(at.x, at.y);
+        if (own.mixed()) return true;
+        for (int y = std::max(at.y - 1, 0); y <= std::min(at.y + 1, size.y - 1); ++y)
+            for (int x = std::max(at.x - 1, 0); x <= std::min(at.x + 1, size.x - 1); ++x) {
+                const Places& other = places(x, y);
+                if (other.all > 0 && (other.mixed() || other.is_lit() != own.is_lit())) return true;
+            }
+        return false;
+    };
+    std::atomic<std::size_t> sampled{0};
+    const auto trace_where = [&](std::uint32_t side, const auto& needs) {
+        const std::vector<Places> before = found;
+        parallel_rows(hits.size_px.y, world_->threads, [&](std::uint32_t row) {
+            std::uint32_t hint = kNoTriangle;
+            for (std::uint32_t x = 0; x < hits.size_px.x; ++x) {
+                const std::size_t pixel = std::size_t{row} * hits.size_px.x + x;
+                if (middles.scored[pixel] == 0 || !needs(before, glm::ivec2(x, row))) continue;
+                found[pixel] = tracer.trace(pixel, side, hint);
+                sampled += side == sampling.side;
+            }
+        });
+    };
+    trace_where(kFirst[0], [](const std::vector<Places>&, const glm::ivec2&) { return true; });
+    trace_where(kFirst[1], undecided);
+    trace_where(sampling.side, undecided);
+    truth.sampled = sampled;
+    for (std::size_t i = 0; i < hits.count(); ++i) {
+        const Places& places = found[i];
+        if (places.all == 0 || !places.faces || places.seen == 0) continue;
+        truth.lit[i] = static_cast<float>(places.lit) / static_cast<float>(places.seen);
+        truth.area[i] = places.seen == places.all ? PixelArea::whole : PixelArea::partial;
+    }
+    return truth;
+}
+
+AreaMetrics compare_area(const AreaTruth& truth, std::span<const float> measured,
+                         std::span<const std::uint8_t> ambiguous) {
+    assert(measured.size() == truth.lit.size());
+    AreaMetrics m;
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if (truth.area[i] == PixelArea::unscored || (!ambiguous.empty() && ambiguous[i] != 0)) continue;
+        const bool crossed = truth.lit[i] > 0.0f && truth.lit[i] < 1.0f, is_known = measured[i] >= 0.0f;
+        const double off = is_known ? static_cast<double>(measured[i] - truth.lit[i]) : 1.0;
+        if (truth.area[i] == PixelArea::partial) {
+            m.partial += crossed;
+            m.partial_error += crossed ? std::abs(off) : 0.0;
+        } else if (crossed) {
+            ++m.crossed;
+            errors.push_back(std::abs(off));
+            m.mean_error += std::abs(off);
+            m.bias += is_known ? off : 0.0;
+        } else {
+            ++m.uncrossed;
+            m.uncrossed_error += std::abs(off);
+        }
+    }
+    const auto divide = [](double& sum, std::size_t count) { sum = count == 0 ? 0.0 : sum / static_cast<double>(count); };
+    divide(m.mean_error, m.crossed);
+    divide(m.bias, m.crossed);
+    divide(m.uncrossed_error, m.uncrossed);
+    divide(m.partial_error, m.partial);
+    std::sort(errors.begin(), errors.end());
+    constexpr double kTail = 0.99;
+    if (!errors.empty())
+        m.p99_error = errors[static_cast<std::size_t>(std::ceil(kTail * static_cast<double>(errors.size()))) - 1];
+    return m;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,152 @@
+#include "tests/oracle/area_truth.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/oracle/analytic_scene.h"
+
+namespace gnomon::oracle {
+namespace {
+
+constexpr std::uint32_t kSide_px = 48;
+constexpr double kPixel_m = 4.0 / kSide_px;
+// A line crosses at most 2 * 16 of the 256 squares, each with an error of at most half of it, of random sign.
+constexpr double kMost = 0.03, kMean = 0.002;
+
+/// Share of the unit square around the origin where dot(across, place) is below `to`; `across` is a unit vector.
+double square_below(const glm::dvec2& across, double to) {
+    const double a = std::max(std::abs(across.x), std::abs(across.y)), b = std::min(std::abs(across.x), std::abs(across.y));
+    const double s = std::min(std::abs(to), 0.5 * (a + b));
+    // From the middle to s: a band of width 1 / a, less a triangle once the line meets a corner.
+    const double flat = 0.5 * (a - b);
+    double share = s / a;
+    if (s > flat) share = b > 0.0 ? 0.5 - (0.5 * (a + b) - s) * (0.5 * (a + b) - s) / (2.0 * a * b) : 0.5;
+    return 0.5 + (to < 0.0 ? -share : share);
+}
+
+TEST(AreaTruth, SquaresBesideALineByHand) {
+    EXPECT_DOUBLE_EQ(square_below({1.0, 0.0}, 0.25), 0.75);
+    EXPECT_DOUBLE_EQ(square_below({0.0, 1.0}, -0.5), 0.0);
+    const double r = std::sqrt(0.5);
+    EXPECT_NEAR(square_below({r, r}, 0.0), 0.5, 1e-12);
+    EXPECT_NEAR(square_below({r, r}, -r / 2.0), 0.125, 1e-12);  // a corner triangle with sides of a half
+}
+
+/// A floor seen from above, and over half of it a sheet that the camera does not see. Its edge has a direction and a
+/// distance from the middle.
+struct HalfCovered {
+    AnalyticScene scene;
+    glm::dvec2 across;  // unit, in the picture, from the shadow to the light
+    double off_m = 0.0;
+
+    HalfCovered(double angle_rad, double off, double height_m) : across(std::cos(angle_rad), std::sin(angle_rad)), off_m(off) {
+        scene.place_floor(40.0);
+        const glm::dvec3 way(across.x, 0.0, -across.y), along(across.y, 0.0, across.x);
+        scene.place(scene.add_square(), way * (off - 20.0) + glm::dvec3(0.0, height_m, 0.0),
+                    glm::dmat3(way * 40.0, along * 80.0, {0, 40.0, 0}))
+            .visible = false;
+    }
+    struct Traced {
+        PrimaryHits hits;
+        LightTruth middles;
+        AreaTruth truth;
+    };
+    Traced trace(const LightItem& light) const {
+        const ReferenceTracer tracer = scene.tracer();
+        const ConsumerItem camera = scene.view_from_above(kSide_px, 4.0);
+        Traced traced{tracer.trace_primary(camera), {}, {}};
+        traced.middles = tracer.trace_light(traced.hits, light, true);
+        traced.truth = tracer.trace_area(camera, traced.hits, traced.middles, light, {});
+        return traced;
+    }
+};
+
+/// `magnified`: how much larger the shadow is than the sheet.
+void expect_shares(const HalfCovered& world, const LightItem& light, double magnified) {
+    const auto traced = world.trace(light);
+    double sum = 0.0;
+    std::size_t crossed = 0;
+    for (std::size_t i = 0; i < traced.hits.count(); ++i) {
+        ASSERT_EQ(traced.truth.area[i], PixelArea::whole);
+        const glm::dvec3 p = traced.hits.position_rel_m[i];
+        const double beyond_m = glm::dot(world.across, glm::dvec2(p.x, -p.z)) - world.off_m * magnified;
+        const double expected = square_below(-world.across, beyond_m / kPixel_m);
+        const double off = static_cast<double>(traced.truth.lit[i]) - expected;
+        EXPECT_LT(std::abs(off), kMost) << "beyond by " << beyond_m / kPixel_m << " px";
+        sum += off;
+        crossed += expected > 0.0 && expected < 1.0;
+    }
+    EXPECT_GT(crossed, kSide_px);
+    EXPECT_LT(std::abs(sum) / static_cast<double>(crossed), kMean * 5.0);
+}
+
+TEST(AreaTruth, OfAStraightEdgeIsTheShareOfThePixelBesideIt) {
+    for (const double angle_rad : {0.0, 0.3, 0.8, 1.2, 2.5, 4.0})
+        for (const double off_m : {0.0, 0.013, -0.37}) {
+            SCOPED_TRACE(std::to_string(angle_rad) + ", " + std::to_string(off_m));
+            const HalfCovered world(angle_rad, off_m, 5.0);
+            expect_shares(world, world.scene.sun({0.0, 1.0, 0.0}), 1.0);
+        }
+}
+
+TEST(AreaTruth, UnderALampTheShadowIsLarger) {
+    const HalfCovered world(0.5, 0.31, 3.0);
+    expect_shares(world, world.scene.lamp({0.0, 12.0, 0.0}), 12.0 / 9.0);
+    expect_shares(world, world.scene.spot({0.0, 12.0, 0.0}, {0.0, 1.0, 0.0}, 0.9), 12.0 / 9.0);
+}
+
+TEST(AreaTruth, WithoutCasterNoPixelIsCrossed) {
+    AnalyticScene scene;
+    scene.place_floor(40.0);
+    const ReferenceTracer tracer = scene.tracer();
+    const ConsumerItem camera = scene.view_from_above(kSide_px, 4.0);
+    const PrimaryHits hits = tracer.trace_primary(camera);
+    const LightItem sun = scene.sun({0.3, 1.0, 0.2});
+    const AreaTruth truth = tracer.trace_area(camera, hits, tracer.trace_light(hits, sun, false), sun, {});
+    const std::vector<float> lit(hits.count(), 1.0f), half(hits.count(), 0.5f);
+    const AreaMetrics right = compare_area(truth, lit, {}), wrong = compare_area(truth, half, {});
+    EXPECT_EQ(right.crossed, 0u);
+    EXPECT_EQ(right.uncrossed, hits.count());
+    EXPECT_EQ(right.uncrossed_error, 0.0);
+    EXPECT_EQ(wrong.uncrossed_error, 0.5);
+    EXPECT_EQ(truth.sampled, 0u);
+}
+
+TEST(AreaTruth, WhereAnotherSurfaceShowsInAPixelItIsPartial) {
+    AnalyticScene scene;
+    scene.place_floor(40.0);
+    // A box's top covers the pixels where x and z are below 1/3 of a pixel beyond whole ones.
+    scene.place(scene.add_cube(), {-5.0 + kPixel_m / 3.0, 0.5, -5.0 + kPixel_m / 3.0}, glm::dmat3({10, 0, 0}, {0, 1, 0}, {0, 0, 10}));
+    const ReferenceTracer tracer = scene.tracer();
+    const ConsumerItem camera = scene.view_from_above(kSide_px, 4.0);
+    const PrimaryHits hits = tracer.trace_primary(camera);
+    const LightItem sun = scene.sun({0.0, 1.0, 0.0});
+    const AreaTruth truth = tracer.trace_area(camera, hits, tracer.trace_light(hits, sun, false), sun, {});
+    EXPECT_EQ(std::count(truth.area.begin(), truth.area.end(), PixelArea::partial), kSide_px + 1);
+    EXPECT_EQ(std::count(truth.area.begin(), truth.area.end(), PixelArea::unscored), 0);
+    // What shows of the floor is lit, and of the box, too: the crease is no shadow's edge.
+    EXPECT_EQ(*std::min_element(truth.lit.begin(), truth.lit.end()), 1.0f);
+}
+
+TEST(AreaTruth, YesOrNoIsOffByAQuarterOnAverage) {
+    double error = 0.0;
+    std::size_t count = 0;
+    for (const double angle_rad : {0.2, 0.5, 0.9, 1.3}) {
+        const HalfCovered world(angle_rad, 0.01, 5.0);
+        const auto traced = world.trace(world.scene.sun({0.0, 1.0, 0.0}));
+        const AreaMetrics m = compare_area(traced.truth, traced.middles.visibility, traced.middles.ambiguous);
+        const AreaMetrics same = compare_area(traced.truth, traced.truth.lit, traced.middles.ambiguous);
+        EXPECT_EQ(same.mean_error, 0.0);
+        EXPECT_EQ(m.uncrossed_error, 0.0);
+        EXPECT_LT(std::abs(m.bias), 0.03);
+        EXPECT_GT(m.p99_error, 0.45);
+        error += m.mean_error * static_cast<double>(m.crossed);
+        count += m.crossed;
+    }
+    EXPECT_NEAR(error / static_cast<double>(count), 0.2, 0.06);
+}
+
+}  // namespace
+}  // namespace gnomon::oracle
