@@ -236,6 +236,7 @@ struct LookupOptions {
     /// left out is looked up by the nearest part, or is lit.
     bool suns = true, spots = true, points = true;
     bool alpha_tests = true;  // casters with an AlphaMask let light through
+    bool antialias = false;   // LightShadow::antialias counts; the area is that of the view's pixel at the position
     /// Filters that the text has; each must read depths. Empty: triangles, pcss, pcf_bilinear and pcf_grid,
     /// which give four others to the same result.
     std::vector<ShadowFilter> filters = {};

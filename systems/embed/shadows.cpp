@@ -39,6 +39,7 @@ lookup::LookupRows rows_of(const LookupOptions& options, const gl::DeviceInfo& d
             .cones = options.spots,
             .cubes = options.points,
             .masks = options.alpha_tests,
+            .antialias = options.antialias,
             .for_hardware = !device.is_software};
 }
 

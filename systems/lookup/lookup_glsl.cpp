@@ -59,7 +59,7 @@ using Values = std::map<std::string, std::string, std::less<>>;
 
 /// Adds the shaders of one row to a library.
 Result<gl::GlslNames> add_row(gl::GlslLibrary& library, std::string_view kind_file, const FilterRow& filter,
-                              bool masks) {
+                              const LookupRows& rows) {
     std::string text = "#include \"common/camera_block.glsl\"\n#include \"lighting/lights/light_sample.glsl\"\n";
     for (const std::string_view file : {kind_file, filter.file, std::string_view("shadow/lookup/light_vector.glsl"),
                                         std::string_view("shadow/lookup/shadow_layers.glsl")})
@@ -67,7 +67,7 @@ Result<gl::GlslNames> add_row(gl::GlslLibrary& library, std::string_view kind_fi
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
     files.push_back({"row.glsl", text});
     const std::vector<std::string> defines =
-        shadow::shared_defines({filter.reading == MapReading::compare_linear, masks, "gnomon_reach_texel"});
+        shadow::shared_defines({filter.reading == MapReading::compare_linear, rows.masks, rows.antialias, "gnomon_reach_texel"});
     const auto expanded = gl::expand_shader(files, "row.glsl", defines);
     if (!expanded) return expanded.error();
     return library.add(expanded.value());
@@ -89,14 +89,14 @@ Result<RowNames> add_rows(gl::GlslLibrary& library, const LookupRows& rows) {
     const std::array<std::string_view, 4> files = {kCascadesFile, shadow::kWarpedSunFile, shadow::kPerspectiveFile,
                                                    kCubeFile};
     for (std::size_t i = 0; i < files.size(); ++i) {
-        auto names = add_row(library, files[i], shadow::filter_row(rows.filters.front()), rows.masks);
+        auto names = add_row(library, files[i], shadow::filter_row(rows.filters.front()), rows);
         if (!names) return names.error();
         found.kinds[i] = std::move(names).value();
     }
     for (const ShadowFilter filter : rows.filters)
         for (const bool cube : {false, true}) {
             const std::string_view file = cube ? kCubeFile : shadow::kPerspectiveFile;
-            const auto names = add_row(library, file, shadow::filter_row(filter), rows.masks);
+            const auto names = add_row(library, file, shadow::filter_row(filter), rows);
             if (!names) return names.error();
             (cube ? found.cube : found.flat).push_back(names.value().at("shadow_filter"));
         }

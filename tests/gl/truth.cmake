@@ -17,6 +17,7 @@ if(GNOMON_SAMPLE)
     truth_planes_gl_test.cpp
     truth_source_gl_test.cpp
     truth_warp_gl_test.cpp
+    antialias_gl_test.cpp
     ../data/data_files.cpp
     LIBRARIES gnomon_bench_parts gnomon_hard_cases)
 endif()

@@ -101,7 +101,7 @@ AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryH
     truth.lit.assign(hits.count(), -1.0f);
     truth.area.assign(hits.count(), PixelArea::unscored);
     std::vector<Places> found(hits.count());
-    // Whether a pixel of the square of 3 x 3 around it differs from it, or a pixel's own places do.
+    // Returns true if the pixel's own places differ, or those of a pixel in the square of 3 x 3 around it.
     const auto undecided = [&](const std::vector<Places>& of, const glm::ivec2& at) {
         const auto places = [&](int x, int y) -> const Places& {
             return of[static_cast<std::size_t>(y) * hits.size_px.x + static_cast<std::size_t>(x)];

@@ -38,7 +38,7 @@ struct AreaTruth {
 /// Errors against that share. Only whole, unambiguous pixels count.
 struct AreaMetrics {
     std::size_t crossed = 0;       // pixels with a share above 0 and below 1
-    double mean_error = 0.0;       // of |measured - share| over them; no surface measured: 1
+    double mean_error = 0.0;       // difference from the share over them; no surface measured: 1
     double bias = 0.0;             // mean of measured - share over them; above 0: too bright
     double p99_error = 0.0;
     std::size_t uncrossed = 0;     // pixels with a share of 0 or 1
@@ -47,7 +47,7 @@ struct AreaMetrics {
     double partial_error = 0.0;    // mean error over these
 };
 
-/// `ambiguous`: flags of pixels that do not count; empty: all count.
+/// Compares. `ambiguous`: flags of pixels that do not count; empty: all count.
 AreaMetrics compare_area(const AreaTruth& truth, std::span<const float> measured,
                          std::span<const std::uint8_t> ambiguous);
 

@@ -42,6 +42,6 @@ layout(std140, binding = kLightBlock) uniform LightBlock {
                                // taps along it
     vec4 low;                  // Sun: xyz: low part of `to_light`. Lamp: xyz: offset from `position` to the place from
                                // which shadows are computed. That is the lamp in double, or just clear of a caster
-                               // that it touches.
+                               // that it touches. w: 1: its edges are antialiased (shadow/filters/triangles)
     ViewRecord views[kMaxViews];
 } light;

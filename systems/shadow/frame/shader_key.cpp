@@ -33,6 +33,7 @@ std::vector<std::string> program_defines(const ShaderKey& row) {
     defines.push_back(flag("SHADOW_RAYS", row.rays));
     defines.push_back(flag("SHADOW_FADES", row.fades));
     defines.push_back(flag("SHADOW_MANUAL_BIAS", row.manual_bias));
+    defines.push_back(flag("SHADOW_ANTIALIAS", row.antialias));
     defines.push_back(file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"));
     const std::string reading(map_reading(row));
     defines.push_back(file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_" + reading + ".glsl"));
@@ -46,6 +47,7 @@ std::vector<std::string> shared_defines(const SharedRow& row) {
     return {file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_shared.glsl"),
             file("SHADOW_CUBE_MAP", "shadow/lookup/maps/cube_shared.glsl"),
             file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"),
+            flag("SHADOW_ANTIALIAS", row.antialias),
             flag("SHADOW_LINEAR_TAPS", row.linear_taps), "SHADOW_REACH_TEXEL " + row.reach_texel};
 }
 

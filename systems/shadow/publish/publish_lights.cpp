@@ -110,7 +110,8 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
     record.position = sun ? view_distance(fitted, consumer) : with_w(from_camera_m, light.range_m);
     record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
     const glm::dvec3 exact = sun ? light.rotation_ws[2] : lamp_ws_m - consumer.position_ws_m;
-    record.low = glm::vec4(glm::vec3(exact - glm::dvec3(glm::vec3(sun ? exact : from_camera_m))), 0.0f);
+    record.low = glm::vec4(glm::vec3(exact - glm::dvec3(glm::vec3(sun ? exact : from_camera_m))),
+                           light.shadow.antialias ? 1.0f : 0.0f);
     record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
     // KHR_lights_punctual's own guard against inner == outer.
@@ -246,6 +247,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     out.plain.accuracy.filter = kCheapestFilter;
     add_view(light, in.drawn, v, out.plain.accuracy);
     out.row.ray_masks = out.row.triangles && in.masked;
+    out.row.antialias = out.row.triangles && light.shadow.antialias;
     if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;

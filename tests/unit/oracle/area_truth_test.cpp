@@ -15,7 +15,7 @@ constexpr double kPixel_m = 4.0 / kSide_px;
 // A line crosses at most 2 * 16 of the 256 squares, each with an error of at most half of it, of random sign.
 constexpr double kMost = 0.03, kMean = 0.002;
 
-/// Share of the unit square around the origin where dot(across, place) is below `to`; `across` is a unit vector.
+/// Returns the share of the unit square around the origin where dot(across, place) is below `to`; `across` is a unit vector.
 double square_below(const glm::dvec2& across, double to) {
     const double a = std::max(std::abs(across.x), std::abs(across.y)), b = std::min(std::abs(across.x), std::abs(across.y));
     const double s = std::min(std::abs(to), 0.5 * (a + b));
@@ -63,7 +63,7 @@ struct HalfCovered {
     }
 };
 
-/// `magnified`: how much larger the shadow is than the sheet.
+/// Expects the closed form. `magnified`: how much larger the shadow is than the sheet.
 void expect_shares(const HalfCovered& world, const LightItem& light, double magnified) {
     const auto traced = world.trace(light);
     double sum = 0.0;

@@ -31,7 +31,9 @@ int different(FourTexels four, bvec4 may, FourTriangles shown) {
     return bits;
 }
 
-#ifdef LEAVE_UNDECIDED
+#if SHADOW_ANTIALIAS
+#include "shadow/filters/triangles/over_area.glsl"
+#elif defined(LEAVE_UNDECIDED)
 // true where texels do not agree, in the first draw of a light.
 bool shadow_undecided = false;
 

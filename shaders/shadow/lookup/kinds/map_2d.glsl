@@ -60,6 +60,13 @@ int shadow_layer(ShadowPoint point) { return point.covered ? int(point.layer) : 
 // Returns where the point lies in the map, texels from its corner.
 vec2 shadow_texel(ShadowPoint point) { return point.map.xy / point.texel_uv; }
 
+// Returns how far the point's place in the map moves, texels, as the receiver moves by a small step, metres.
+vec2 texels_moved(ShadowPoint point, vec3 step_m) {
+    ViewRecord view = light.views[point.view];
+    vec2 across = vec2(dot(view.axis_u.xyz, step_m), dot(view.axis_v.xyz, step_m));
+    return (across + point.tangent * dot(view.axis_back.xyz, step_m)) / point.facts.texel_m;
+}
+
 // Returns the tangent of a texel's side, which disks around a point in a cube need. 0: this is a flat map.
 float shadow_texel_tan() { return 0.0; }
 

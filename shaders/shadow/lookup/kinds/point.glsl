@@ -89,6 +89,12 @@ vec2 shadow_texel(ShadowPoint point) {
     return from_middle + 0.5 * shadow_map_size();
 }
 
+// Returns how far the point's place in its face moves, texels, as the receiver moves by a small step, metres.
+vec2 texels_moved(ShadowPoint point, vec3 step_m) {
+    vec3 in_face = turned_back(step_m) * face_axes(point.position);
+    return (in_face.xy + point.tangent * in_face.z) / point.facts.texel_m;
+}
+
 // Returns the tangent of a texel's side: how much nearer to the light an offset along a direction brings a tap.
 float shadow_texel_tan() { return light.views[0].axis_u.w; }
 

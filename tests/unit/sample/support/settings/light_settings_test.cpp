@@ -19,6 +19,7 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
         .sun_radius_rad = 0.00465f,
         .shadow = {.enabled = false,
                    .filter = ShadowFilter::pcf_grid,
+                   .antialias = true,
                    .max_error_px = 0.3f,
                    .resolution_px = 768,
                    .cascades = 6,

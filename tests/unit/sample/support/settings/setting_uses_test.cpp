@@ -53,6 +53,9 @@ TEST(SettingUses, DependOnTheKindOfLight) {
 }
 
 TEST(SettingUses, DependOnTheFilterAndOnOtherSettings) {
+    EXPECT_FALSE(is_idle("antialias", LightKind::point));
+    EXPECT_FALSE(is_idle("antialias", LightKind::spot, {"filter=triangles"}));
+    EXPECT_TRUE(is_idle("antialias", LightKind::point, {"filter=exact"}));
     EXPECT_TRUE(is_idle("filter_size", LightKind::point));
     EXPECT_FALSE(is_idle("filter_size", LightKind::point, {"filter=pcf_grid"}));
     EXPECT_FALSE(is_idle("filter_size", LightKind::point, {"filter=vsm"}));

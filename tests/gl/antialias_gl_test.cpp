@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tests/gl/truth_scenes.h"
+
+// Antialiased edges of `triangles`, against the lit share of each pixel's area (bench accuracy --area).
+namespace gnomon {
+namespace {
+
+constexpr std::uint32_t kSide = 8;
+constexpr glm::uvec2 kLarge_px{1280, 720}, kSmall_px{640, 360};
+// A light with fewer crossed pixels proves nothing.
+constexpr std::size_t kLeastCrossed = 1000;
+
+bench::StageOptions courtyard(glm::uvec2 size_px, const char* setting) {
+    bench::StageOptions options;
+    options.size_px = size_px;
+    options.settings = {setting};
+    return options;
+}
+
+class Antialias : public TruthTest {
+protected:
+    static bench::Accuracy measure_areas(const bench::StageOptions& options) {
+        const auto stage = open(options);
+        if (!stage) return {};
+        auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .area_side = kSide});
+        if (!accuracy) {
+            ADD_FAILURE() << to_line(accuracy.error());
+            return {};
+        }
+        EXPECT_EQ(accuracy.value().gl_complaints, 0u);
+        return std::move(accuracy).value();
+    }
+};
+
+TEST_F(Antialias, EdgesHaveTheLitShareOfEachPixel) {
+    constexpr double kMostError = 0.03;
+    const auto on = measure_areas(courtyard(kLarge_px, "antialias=on"));
+    ASSERT_EQ(on.lights.size(), 3u);
+    for (const char* name : {"sun", "lantern"}) {
+        const bench::LightAccuracy* light = find_light(on, name);
+        ASSERT_NE(light, nullptr) << name;
+        EXPECT_GE(light->area->metrics.crossed, kLeastCrossed) << name;
+        EXPECT_LE(light->area->metrics.mean_error, kMostError) << name;
+    }
+}
+
+TEST_F(Antialias, YesOrNoIsOffByFiveTimesAsMuchForEveryKindOfLight) {
+    const auto on = measure_areas(courtyard(kSmall_px, "antialias=on")), off = measure_areas(courtyard(kSmall_px, "antialias=off"));
+    ASSERT_EQ(on.lights.size(), 3u);
+    ASSERT_EQ(off.lights.size(), 3u);
+    for (std::size_t i = 0; i < on.lights.size(); ++i) {
+        SCOPED_TRACE(on.lights[i].report.name);
+        EXPECT_GE(on.lights[i].area->metrics.crossed, kLeastCrossed);
+        EXPECT_GE(off.lights[i].area->metrics.mean_error, 5.0 * on.lights[i].area->metrics.mean_error);
+        EXPECT_EQ(on.lights[i].report.counts.bytes, off.lights[i].report.counts.bytes);
+    }
+}
+
+TEST_F(Antialias, PixelsThatNoEdgeCrossesStayAsTheyWereButForFew) {
+    constexpr double kMostExceptions = 0.005;   // what no texel shows, and facets that the area's plane leaves
+    const auto on = measure_areas(courtyard(kSmall_px, "antialias=on")), off = measure_areas(courtyard(kSmall_px, "antialias=off"));
+    ASSERT_EQ(on.lights.size(), off.lights.size());
+    for (std::size_t i = 0; i < on.lights.size(); ++i) {
+        SCOPED_TRACE(on.lights[i].report.name);
+        const oracle::AreaTruth& truth = on.lights[i].area->truth;
+        std::size_t same = 0, others = 0, between = 0;
+        for (std::size_t pixel = 0; pixel < truth.lit.size(); ++pixel) {
+            const float with = on.lights[i].measured[pixel], without = off.lights[i].measured[pixel];
+            EXPECT_TRUE(without <= 0.0f || without >= 1.0f);
+            between += with > 0.0f && with < 1.0f;
+            const bool uncrossed = truth.area[pixel] == oracle::PixelArea::whole && (truth.lit[pixel] <= 0.0f || truth.lit[pixel] >= 1.0f);
+            if (uncrossed) (std::abs(with - without) > 0.0f ? others : same) += 1;
+        }
+        EXPECT_GT(between, kLeastCrossed) << "nothing is antialiased";
+        EXPECT_LE(static_cast<double>(others), kMostExceptions * static_cast<double>(same + others)) << others;
+    }
+}
+
+}  // namespace
+}  // namespace gnomon
