@@ -57,6 +57,7 @@ def main_in_display():
         sys.exit(77)
     if INSIDE not in os.environ:
         # A display of our own, so that nobody's desktop gets our key presses.
-        command = ["xvfb-run", "-a", "-s", "-screen 0 1280x720x24", sys.executable] + sys.argv
+        # Without -noreset the server starts anew when its last client goes, and refuses the next one meanwhile.
+        command = ["xvfb-run", "-a", "-s", "-screen 0 1280x720x24 -noreset", sys.executable] + sys.argv
         sys.exit(subprocess.run(command, env=dict(os.environ, **{INSIDE: "1"}), check=False).returncode)
     main()
