@@ -23,20 +23,31 @@ struct Places {
     bool is_lit() const { return lit > 0; }
 };
 
+/// Returns the i-th of `count` places of the unit square around the origin. A lattice, because rows of a grid lie all
+/// on one side of an edge along them.
+glm::dvec2 lattice_place(std::uint32_t i, std::uint32_t count) {
+    constexpr double kGolden = 0.6180339887498949;
+    const double turns = (i + 0.5) * kGolden;
+    return {(i + 0.5) / count - 0.5, turns - std::floor(turns) - 0.5};
+}
+
 class AreaTracer {
 public:
     AreaTracer(const TracedWorld& world, const ConsumerItem& camera, const PrimaryHits& hits, const LightItem& light)
-        : world_(world), camera_(camera), hits_(hits), light_(light),
+        : world_(world),
+          camera_(camera),
+          hits_(hits),
+          light_(light),
           light_rel_m_(light.position_ws_m - world.origin_ws_m()) {}
 
     Places trace(std::size_t pixel, std::uint32_t side, std::uint32_t& hint) const {
-        const glm::dvec2 centre(static_cast<double>(pixel % hits_.size_px.x), static_cast<double>(pixel / hits_.size_px.x));
+        const glm::dvec2 centre(static_cast<double>(pixel % hits_.size_px.x),
+                                static_cast<double>(pixel / hits_.size_px.x));
         Places places;
         places.all = side * side;
         const double within_m = kSameSurface_px * pixel_width_m(pixel, centre);
         for (std::uint32_t i = 0; i < side * side && places.faces; ++i) {
-            const glm::dvec2 in_square = (glm::dvec2(i % side, i / side) + 0.5) / static_cast<double>(side) - 0.5;
-            add_place(pixel, centre + in_square, within_m, places, hint);
+            add_place(pixel, centre + lattice_place(i, side * side), within_m, places, hint);
         }
         return places;
     }
@@ -163,7 +174,9 @@ AreaMetrics compare_area(const AreaTruth& truth, std::span<const float> measured
             m.uncrossed_error += std::abs(off);
         }
     }
-    const auto divide = [](double& sum, std::size_t count) { sum = count == 0 ? 0.0 : sum / static_cast<double>(count); };
+    const auto divide = [](double& sum, std::size_t count) {
+        sum = count == 0 ? 0.0 : sum / static_cast<double>(count);
+    };
     divide(m.mean_error, m.crossed);
     divide(m.bias, m.crossed);
     divide(m.uncrossed_error, m.uncrossed);

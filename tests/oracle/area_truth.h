@@ -9,8 +9,8 @@
 /// Ray-traced truth about the lit share of each pixel's area, and the distance of a picture from it.
 namespace gnomon::oracle {
 
-/// A pixel's area is a square one pixel wide around its centre. It is cut into side² equal squares. A ray of the camera
-/// through the middle of each finds a place. A place counts if it lies on the surface that the pixel's centre sees.
+/// A pixel's area is a square one pixel wide around its centre. Rays of the camera through side² points of it, a
+/// lattice, find places. A place counts if it lies on the surface that the pixel's centre sees.
 ///
 /// That surface is what lies within kSameSurface_px of the tangent plane there: the seen triangle, its flat
 /// neighbours, and facets that bend by little. A shadow ray in double then starts at the place itself, from its own
@@ -30,16 +30,16 @@ enum class PixelArea : std::uint8_t {
 
 /// One value per pixel of a PrimaryHits.
 struct AreaTruth {
-    std::vector<float> lit;       // share of the places on the seen surface that the light reaches; -1: unscored
+    std::vector<float> lit;  // share of the places on the seen surface that the light reaches; -1: unscored
     std::vector<PixelArea> area;
-    std::size_t sampled = 0;      // pixels that got all rays
+    std::size_t sampled = 0;  // pixels that got all rays
 };
 
 /// Errors against that share. Only whole, unambiguous pixels count.
 struct AreaMetrics {
-    std::size_t crossed = 0;       // pixels with a share above 0 and below 1
-    double mean_error = 0.0;       // difference from the share over them; no surface measured: 1
-    double bias = 0.0;             // mean of measured - share over them; above 0: too bright
+    std::size_t crossed = 0;  // pixels with a share above 0 and below 1
+    double mean_error = 0.0;  // difference from the share over them; no surface measured: 1
+    double bias = 0.0;        // mean of measured - share over them; above 0: too bright
     double p99_error = 0.0;
     std::size_t uncrossed = 0;     // pixels with a share of 0 or 1
     double uncrossed_error = 0.0;  // mean error over these
