@@ -20,7 +20,7 @@ class ContextLoss(GameTest):
     def test_without_a_window_it_is_made_anew_and_the_picture_is_the_same(self):
         unbroken, said = self.film("unbroken", 0)
         self.assertNotIn("lost", said)
-        for call in (60, 75, 90):  # each call that creates or draws asks once: set-up takes less than these
+        for call in (30, 50, 70):  # each call that creates or draws asks once: set-up takes less than these
             broken, said = self.film("broken%d" % call, call)
             self.assertIn("the graphics context was lost, and is made anew", said)
             self.assertEqual(broken, unbroken, "lost at call %d" % call)

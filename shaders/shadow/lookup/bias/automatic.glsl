@@ -33,7 +33,7 @@ float taken(float offset) { return SHADOW_BIAS_SHARE * offset; }
 #else
 float taken(float offset) { return offset; }
 #endif
-Bias taken(Bias bias) { return Bias(taken(bias.along_normal_m), taken(bias.depth)); }
+Bias taken_bias(Bias bias) { return Bias(taken(bias.along_normal_m), taken(bias.depth)); }
 
 // Returns a lamp's distance from the plane that a filter carries to the texels around the receiver, metres.
 // Only errors of the receiver's place and of its depth are in it: they change the plane's depths in proportion. What
@@ -56,7 +56,7 @@ Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float err
     Bias bias;
     bias.along_normal_m = steep ? across_m : 0.0;
     bias.depth = view.numeric.x + (steep ? 0.0 : across_m / (cosine * range_m));
-    return taken(bias);
+    return taken_bias(bias);
 }
 
 // Returns the bias in a perspective map. Depth alpha + beta / z is affine in the map's coordinates on any plane, so the
@@ -83,5 +83,5 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving,
     bias.along_normal_m = steep ? across_m / (1.0 - min(spread * leaving, kMostGrowth)) : 0.0;
     bias.depth = view.numeric.x + kRelativeRounding * depth +
                  (steep ? 0.0 : beta * across_m / (z_m * plane_m));
-    return taken(bias);
+    return taken_bias(bias);
 }

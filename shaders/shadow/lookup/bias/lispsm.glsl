@@ -39,5 +39,5 @@ Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, fl
     Bias bias;
     bias.along_normal_m = steep ? across_m * w / (1.0 - move) : 0.0;
     bias.depth = view.numeric.x + depth * w_error / w + (steep ? 0.0 : across_m / (max(cosine, kNormalError_rad) * range_m));
-    return taken(bias);
+    return taken_bias(bias);
 }
