@@ -233,6 +233,7 @@ protected:
     }
     struct Difference {
         std::size_t surfaces = 0, dark = 0, lit = 0, other = 0;  // pixels; other: the mask is not the frame's visibility
+        float largest = 0.0f;                                    // difference of a pixel, steps of 1/255
         double share() const { return static_cast<double>(other) / static_cast<double>(surfaces); }
     };
     /// Compares a mask with what Gnomon's own frame shows at the same pixels.
@@ -245,7 +246,9 @@ protected:
             ++d.surfaces;
             d.dark += truth[i] < 0.5f;
             d.lit += truth[i] >= 0.5f;
-            d.other += std::abs(static_cast<float>(mask[i]) - 255.0f * truth[i]) > 1.5f;
+            const float apart = std::abs(static_cast<float>(mask[i]) - 255.0f * truth[i]);
+            d.other += apart > 1.5f;
+            d.largest = std::max(d.largest, apart);
         }
         return d;
     }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tests/gl/embed_fixture.h"
 #include "tests/gl/failing_gl.h"
 
@@ -20,6 +22,23 @@ TEST_P(EmbedMask, IsWhatTheFrameShows) {
     EXPECT_GT(d.dark, 2000u);
     EXPECT_GT(d.lit, 20000u);
     EXPECT_EQ(d.other, 0u);
+}
+
+TEST_P(EmbedMask, HasTheShareOfEachPixelThatTheFrameShows) {
+    const auto [kind, depths] = GetParam();
+    make_engine(depths);
+    add_room();
+    add_shadowed(kind, {1.5, 3.0, 1.0}, {.antialias = true});
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    const std::vector<std::uint8_t> mask = masked();
+    const Difference d = compared(mask);
+    const auto shares = std::count_if(mask.begin(), mask.end(), [](std::uint8_t share) { return share > 0 && share < 255; });
+    std::printf("%s %s: %td shares, %zu other of %zu\n", kind_name(kind), name_of(depths), shares, d.other, d.surfaces);
+    EXPECT_GT(shares, 200);
+    // A place that lies on an edge falls to either side by rounding: one of the area's 32.
+    EXPECT_LT(d.share(), 0.0001);
+    EXPECT_LE(d.largest, 255.0f / 32.0f + 1.5f);
 }
 
 /// A spot's map turns with its light. Turned otherwise it has other texels at edges, where either map may miss.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <set>
@@ -57,6 +58,23 @@ TEST_F(AllLights, OfEveryUsualFilterAreSeenAsByTheirOwnPass) {
     start();
     run();
     expect_alike(surface_program());
+}
+
+TEST_F(AllLights, WithAntialiasedEdgesAreSeenAsByTheirOwnPass) {
+    const std::vector kTriangles{ShadowFilter::triangles};
+    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})
+        add(kind, {.filter = ShadowFilter::triangles, .antialias = true, .resolution_px = 256}, lights.size());
+    const auto shares = [](const std::vector<float>& seen) {
+        return std::count_if(seen.begin(), seen.end(), [](float share) { return share > 0.0f && share < 1.0f; });
+    };
+    start({.filters = kTriangles, .antialias = true});
+    run();
+    expect_alike(surface_program());
+    for (const std::vector<float>& seen : looked_up(surface_program())) EXPECT_GT(shares(seen), 50);
+    // Control: a text without it decides by each pixel's middle.
+    start({.filters = kTriangles});
+    run();
+    for (const std::vector<float>& seen : looked_up(surface_program())) EXPECT_EQ(shares(seen), 0);
 }
 
 TEST_F(AllLights, OfEveryOtherFilterThatReadsDepthsAreSeenAsByTheirOwnPass) {

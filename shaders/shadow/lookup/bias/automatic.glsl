@@ -33,7 +33,11 @@ float taken(float offset) { return SHADOW_BIAS_SHARE * offset; }
 #else
 float taken(float offset) { return offset; }
 #endif
-Bias taken_bias(Bias bias) { return Bias(taken(bias.along_normal_m), taken(bias.depth)); }
+Bias taken_bias(Bias bias) {
+    bias.along_normal_m = taken(bias.along_normal_m);
+    bias.depth = taken(bias.depth);
+    return bias;
+}
 
 // Returns a lamp's distance from the plane that a filter carries to the texels around the receiver, metres.
 // Only errors of the receiver's place and of its depth are in it: they change the plane's depths in proportion. What
