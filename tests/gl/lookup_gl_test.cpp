@@ -69,8 +69,9 @@ TEST_F(AllLights, WithAntialiasedEdgesAreSeenAsByTheirOwnPass) {
     };
     start({.filters = kTriangles, .antialias = true});
     run();
-    expect_alike(surface_program());
-    for (const std::vector<float>& seen : looked_up(surface_program())) EXPECT_GT(shares(seen), 50);
+    const gl::ProgramHandle program = surface_program();
+    expect_alike(program);
+    for (const std::vector<float>& seen : looked_up(program)) EXPECT_GT(shares(seen), 50);
     // Control: a text without it decides by each pixel's middle.
     start({.filters = kTriangles});
     run();
