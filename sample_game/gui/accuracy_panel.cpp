@@ -115,7 +115,7 @@ std::string ms_words(std::optional<float> ms) {
 
 void draw_points(const std::vector<ContractPoint>& points, std::optional<float> now) {
     constexpr const char* kColumns[] = {"max_error_px",          "drawn ms", "reused ms", "texels", "KiB",
-                                        "edges off, at most px", "frames"};
+                                        "edges off, px", "frames"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("settings", static_cast<int>(std::size(kColumns)), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);

@@ -171,7 +171,7 @@ std::string filter_words(const FilterReport& filter) {
 
 void draw_report(const FrameReport& report) {
     constexpr std::array kColumns{"light", "state", "reason", "filter", "texels",
-                                  "KiB",   "draws", "CPU us", "GPU us", "edges off, at most px"};
+                                  "KiB",   "draws", "CPU us", "GPU us", "edges off, px"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::CollapsingHeader("shadow of each light", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
