@@ -1,6 +1,5 @@
 #include "sample_game/gui/error_overlay.h"
 
-#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -121,7 +120,7 @@ void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec
 }  // namespace
 
 void ErrorLayer::forget() {
-    if (image_ != 0) glDeleteTextures(1, &image_);
+    if (image_ != 0) destroy_image(image_);
     image_ = 0;
 }
 
@@ -129,11 +128,7 @@ void ErrorLayer::upload(const FrozenFrame& frozen) {
     if (image_ != 0 && version_ == frozen.version()) return;
     forget();
     version_ = frozen.version();
-    const auto width = static_cast<GLsizei>(frozen.size_px().x), height = static_cast<GLsizei>(frozen.size_px().y);
-    glCreateTextures(GL_TEXTURE_2D, 1, &image_);
-    glTextureStorage2D(image_, 1, GL_SRGB8_ALPHA8, width, height);
-    glTextureSubImage2D(image_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, frozen.tints().data());
-    glObjectLabel(GL_TEXTURE, image_, -1, "shadow errors");
+    image_ = make_image("shadow errors", frozen.size_px(), frozen.tints().data(), true);
 }
 
 void ErrorLayer::draw(const FrozenFrame& frozen, const FrameReport& report, glm::vec2 size_px) {
@@ -143,8 +138,9 @@ void ErrorLayer::draw(const FrozenFrame& frozen, const FrameReport& report, glm:
         return;
     }
     upload(frozen);
-    ImGui::GetBackgroundDrawList()->AddImage(image_of(image_), {0.0f, 0.0f}, {size_px.x, size_px.y}, {0.0f, 1.0f},
-                                             {1.0f, 0.0f});
+    if (image_ != 0)  // without memory for it the figures are still there
+        ImGui::GetBackgroundDrawList()->AddImage(image_of(image_), {0.0f, 0.0f}, {size_px.x, size_px.y}, {0.0f, 1.0f},
+                                                 {1.0f, 0.0f});
     draw_figures(frozen, report, size_px);
 }
 

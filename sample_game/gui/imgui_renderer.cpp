@@ -119,6 +119,22 @@ void label(GLenum kind, GLuint name, const char* text) { glObjectLabel(kind, nam
 
 }  // namespace
 
+unsigned make_image(const char* name, glm::uvec2 size_px, const void* rgba8, bool encoded) {
+    const auto width = static_cast<GLsizei>(size_px.x), height = static_cast<GLsizei>(size_px.y);
+    GLuint texture = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, encoded ? GL_SRGB8_ALPHA8 : GL_RGBA8, width, height);
+    if (glGetError() != GL_NO_ERROR) {
+        glDeleteTextures(1, &texture);
+        return 0;
+    }
+    glTextureSubImage2D(texture, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba8);
+    label(GL_TEXTURE, texture, name);
+    return texture;
+}
+
+void destroy_image(unsigned texture) { glDeleteTextures(1, &texture); }
+
 ImTextureID image_of(unsigned texture) { return id_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)); }
 
 Overlay::~Overlay() {
@@ -128,7 +144,7 @@ Overlay::~Overlay() {
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteProgram(program_);
     glDeleteSamplers(1, &sampler_);
-    glDeleteTextures(1, &font_);
+    destroy_image(font_);
 }
 
 Result<std::unique_ptr<Overlay>> Overlay::create() {
@@ -136,10 +152,7 @@ Result<std::unique_ptr<Overlay>> Overlay::create() {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
-    glCreateTextures(GL_TEXTURE_2D, 1, &overlay->font_);
-    glTextureStorage2D(overlay->font_, 1, GL_RGBA8, width, height);
-    glTextureSubImage2D(overlay->font_, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-    label(GL_TEXTURE, overlay->font_, "overlay font");
+    overlay->font_ = make_image("overlay font", {width, height}, texels, false);
     ImGui::GetIO().Fonts->SetTexID(image_of(overlay->font_));
     glCreateSamplers(1, &overlay->sampler_);
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -153,12 +166,13 @@ Result<std::unique_ptr<Overlay>> Overlay::create() {
     label(GL_BUFFER, overlay->vertices_, "overlay vertices");
     label(GL_BUFFER, overlay->indices_, "overlay indices");
     overlay->array_ = make_array(overlay->vertices_, overlay->indices_);
-    if (overlay->program_ == 0) return Error{.message = "the device could not make the panels", .rule = "gui.device"};
+    if (overlay->font_ == 0 || overlay->program_ == 0)
+        return Error{.message = "the device could not make the panels", .rule = "gui.device"};
     label(GL_PROGRAM, overlay->program_, "overlay");
     return overlay;
 }
 
-void Overlay::upload(const ImDrawData& data) {
+bool Overlay::upload(const ImDrawData& data) {
     std::vector<OverlayVertex> vertices;
     std::vector<std::uint32_t> indices;
     // An array in ImGui to 1.89, an ImVector in later ones; not empty, since there are indices.
@@ -172,12 +186,12 @@ void Overlay::upload(const ImDrawData& data) {
     };
     fill(vertices_, vertices);
     fill(indices_, indices);
+    return glGetError() == GL_NO_ERROR;
 }
 
 void Overlay::draw(const ImDrawData& data, unsigned picture, glm::uvec2 size_px) {
-    if (data.TotalIdxCount <= 0) return;
+    if (data.TotalIdxCount <= 0 || !upload(data)) return;
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "overlay");
-    upload(data);
     glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, picture, 0);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, static_cast<GLsizei>(size_px.x), static_cast<GLsizei>(size_px.y));

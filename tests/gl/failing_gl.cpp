@@ -151,6 +151,10 @@ void call_once() {
     glCreateBuffers(1, &buffer);
     glNamedBufferStorage(buffer, 4, nullptr, GL_DYNAMIC_STORAGE_BIT | GL_MAP_WRITE_BIT);
     glNamedBufferSubData(buffer, 0, 4, &buffer);
+    GLuint anew = 0;
+    glCreateBuffers(1, &anew);
+    glNamedBufferData(anew, 4, nullptr, GL_STREAM_DRAW);
+    glDeleteBuffers(1, &anew);
     glMapNamedBufferRange(buffer, 0, 4, GL_MAP_WRITE_BIT);
     glDeleteBuffers(1, &buffer);
     glDeleteShader(0);
@@ -188,7 +192,7 @@ FailingGl::FailingGl() {
     call_once();
     state = {};
     make_fallible<&epoxy_glTextureStorage2D, &epoxy_glTextureStorage3D, &epoxy_glNamedBufferStorage,
-                  &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap, &epoxy_glClearNamedBufferData,
+                  &epoxy_glNamedBufferData, &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap, &epoxy_glClearNamedBufferData,
                   &epoxy_glNamedBufferSubData, &epoxy_glClearBufferfv, &epoxy_glDrawArrays,
                   &epoxy_glDrawElementsInstancedBaseVertexBaseInstance, &epoxy_glGetTextureSubImage,
                   &epoxy_glDispatchCompute, &epoxy_glCopyNamedBufferSubData, &epoxy_glCopyImageSubData,

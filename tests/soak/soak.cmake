@@ -2,9 +2,9 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME system_faults LABEL system TIMEOUT 900 LIBRARIES gnomon_sample SOURCES
     system/test_world.cpp system/fault_scenes.cpp system/fault_play.cpp system/every_call_fails_test.cpp)
-  gnomon_tests(NAME gl_faults LABEL gl TIMEOUT 3600 LIBRARIES gnomon_sample PkgConfig::EPOXY SOURCES
+  gnomon_tests(NAME gl_faults LABEL gl TIMEOUT 3600 LIBRARIES gnomon_gui PkgConfig::EPOXY SOURCES
     system/test_world.cpp system/fault_scenes.cpp gl/failing_gl.cpp gl/every_gl_call_fails_test.cpp
-    soak/soak_world.cpp gl/context_loss_gl_test.cpp)
+    soak/soak_world.cpp gl/context_loss_gl_test.cpp gl/overlay_gl_test.cpp)
 endif()
 gnomon_tests(NAME system_soak LABEL system SOURCES soak/soak_world.cpp system/test_world.cpp system/soak_test.cpp
   system/streaming_soak_test.cpp)
