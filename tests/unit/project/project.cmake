@@ -12,12 +12,14 @@ add_test(NAME Summary.CountsWhatCtestReports
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/project/summary_test.py ${PROJECT_SOURCE_DIR}/.ci)
 add_test(NAME SamePictures.FindsWhatDiffers
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/project/same_pictures_test.py ${PROJECT_SOURCE_DIR}/.ci)
+add_test(NAME SameCost.FindsWhatCostsMore
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/project/same_cost_test.py ${PROJECT_SOURCE_DIR}/.ci)
 add_test(NAME Launcher.KeepsItsPromises
   COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/launcher_test.sh ${PROJECT_SOURCE_DIR}/gnomon)
 set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.CodeReadsTheirFacts Tables.AComparisonIsFound
   Sizes.StayWithinTheirLimits Sizes.WhatIsTooLargeIsFound
   Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports SamePictures.FindsWhatDiffers
-  Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)
+  SameCost.FindsWhatCostsMore Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)
 add_test(NAME Reference.HasNoWarning
   COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/reference_test.sh ${PROJECT_SOURCE_DIR})
 set_tests_properties(Reference.HasNoWarning PROPERTIES LABELS unit TIMEOUT 120 SKIP_RETURN_CODE 77)
