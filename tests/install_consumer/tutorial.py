@@ -2,9 +2,8 @@
 """Takes the tutorial's program out of its page, builds it in an empty folder against an installed copy, and compares its picture.
 
 usage: tutorial.py BUILD SOURCE WORK CXX [LAUNCHER]
-The page is the one below docs/tutorial/ with blocks of code below lines `<!-- file: NAME -->`; without one, a page that is made
-of examples/first_shadow.cpp. Its picture must be that of examples/first_shadow, to the bit. A page whose program has another
-light, and a page without a file, must fail.
+The page is docs/tutorial/first_shadow.md, with blocks of code below lines `<!-- file: NAME -->`. Its picture must be that of
+examples/first_shadow, to the bit. A page whose program has another light, and a page without a file, must fail.
 """
 import os
 import re
@@ -21,17 +20,8 @@ from game import Picture  # noqa: E402
 from run_examples import Wrong, build, run  # noqa: E402
 
 FILE = re.compile(r"file: (?P<name>[\w./-]+)")
-EXAMPLE, TARGET = "examples/first_shadow.cpp", "first_shadow"
+PAGE, EXAMPLE, TARGET = "docs/tutorial/first_shadow.md", "examples/first_shadow.cpp", "first_shadow"
 SIZE = ["--size", "320x180"]
-CMAKE = """cmake_minimum_required(VERSION 3.25)
-project(%s CXX)
-find_package(Gnomon 0.1 REQUIRED COMPONENTS shadows window)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
-add_executable(%s main.cpp)
-target_link_libraries(%s PRIVATE Gnomon::shadows Gnomon::window PkgConfig::EPOXY)
-"""
-
 
 def files_of(text):
     """Names and text of the files that a page has."""
@@ -41,21 +31,6 @@ def files_of(text):
         if mark:
             found[mark["name"]] = found.get(mark["name"], "") + fence.text
     return found
-
-
-def sample_page(source):
-    program = (source / EXAMPLE).read_text(encoding="utf-8")
-    return "# A first shadow\n\n<!-- file: main.cpp -->\n```cpp\n%s```\n\n<!-- file: CMakeLists.txt -->\n```cmake\n%s```\n" % (
-        program, CMAKE % ((TARGET,) * 3))
-
-
-def tutorial_page(source):
-    """The tutorial's text, and what it is called."""
-    for page in sorted((source / "docs/tutorial").glob("*.md")):
-        text = page.read_text(encoding="utf-8")
-        if files_of(text):
-            return text, page.relative_to(source)
-    return sample_page(source), "a page made of " + EXAMPLE
 
 
 def picture_of(text, work, prefix, compiler, launcher):
@@ -108,9 +83,9 @@ def main(build_folder, source, work, compiler, launcher=""):
     run("cmake", "--install", build_folder, "--prefix", prefix)
     # The example itself, built by the project's own build.
     wanted = draw(Path(build_folder) / "bin" / TARGET, work / "wanted.png")
-    text, name = tutorial_page(source)
+    text = (source / PAGE).read_text(encoding="utf-8")
     check(picture_of(text, work / "tutorial", prefix, compiler, launcher), wanted)
-    print("%s: its program draws the picture of %s" % (name, EXAMPLE))
+    print("%s: its program draws the picture of %s" % (PAGE, EXAMPLE))
     must_fail("a page with another light", lambda: check(
         picture_of(spoilt(text), work / "spoilt", prefix, compiler, launcher), wanted))
     must_fail("a page without a file", picture_of, text.replace("file: CMakeLists.txt", "x"), work / "less", prefix, compiler, "")
