@@ -23,6 +23,7 @@ FILE = re.compile(r"file: (?P<name>[\w./-]+)")
 PAGE, EXAMPLE, TARGET = "docs/tutorial/first_shadow.md", "examples/first_shadow.cpp", "first_shadow"
 SIZE = ["--size", "320x180"]
 
+
 def files_of(text):
     """Names and text of the files that a page has."""
     found = {}
