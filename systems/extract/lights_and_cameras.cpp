@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <utility>
 
 #include "gnomon/components.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"
+#include "systems/extract/placed_light.h"
 #include "systems/extract/unique_names.h"
 #include "systems/extract/usable.h"
 
@@ -30,14 +30,15 @@ bool put_light(const ecs::Registry& registry, const Light& light, const WorldTra
                LightItem& item) {
     const LightShadow* shadow = registry.get<LightShadow>(item.entity);
     const ShadowTuning* tuning = shadow ? registry.get<ShadowTuning>(item.entity) : nullptr;
-    bool shape = put(item.kind, light.kind);
-    shape |= put(item.position_ws_m, world.translation_ws_m);
-    shape |= put(item.rotation_ws, orientation(world.basis));
-    shape |= put(item.range_m, static_cast<double>(light.range_m));
-    shape |= put(item.inner_cone_rad, static_cast<double>(light.inner_cone_rad));
-    shape |= put(item.outer_cone_rad, std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>()));
-    shape |= put(item.source_radius_m, light.source_radius_m);
-    shape |= put(item.sun_radius_rad, light.sun_radius_rad);
+    const LightItem now = placed(light, world);
+    bool shape = put(item.kind, now.kind);
+    shape |= put(item.position_ws_m, now.position_ws_m);
+    shape |= put(item.rotation_ws, now.rotation_ws);
+    shape |= put(item.range_m, now.range_m);
+    shape |= put(item.inner_cone_rad, now.inner_cone_rad);
+    shape |= put(item.outer_cone_rad, now.outer_cone_rad);
+    shape |= put(item.source_radius_m, now.source_radius_m);
+    shape |= put(item.sun_radius_rad, now.sun_radius_rad);
     shape |= put(item.has_shadow, shadow != nullptr);
     shape |= put(item.shadow, shadow ? *shadow : LightShadow{});
     shape |= put(item.tuning, tuning ? *tuning : ShadowTuning{});

@@ -1,4 +1,3 @@
-#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -6,6 +5,7 @@
 #include "engine/math/aabb.h"
 #include "gnomon/frame.h"
 #include "systems/extract/drawable_basis.h"
+#include "systems/extract/placed_light.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/visibility/caster_trees.h"
 #include "systems/visibility/light_queries.h"
@@ -87,18 +87,9 @@ void VisibilityQueries::ask(const Light& light, const WorldTransform& light_at, 
     State& s = *state_;
     s.settle();
     if (!s.rays) s.rays = std::make_unique<State::Rays>(*s.library);
-    LightItem item;
-    item.kind = light.kind;
-    item.position_ws_m = light_at.translation_ws_m;
-    item.rotation_ws[2] = glm::normalize(light_at.basis[2]);
-    item.range_m = light.range_m;
-    item.inner_cone_rad = light.inner_cone_rad;
-    item.outer_cone_rad = light.outer_cone_rad;
-    item.source_radius_m = light.source_radius_m;
-    item.sun_radius_rad = light.sun_radius_rad;
     s.asked.clear();
     for (const LitPlace& place : places) s.asked.push_back({place.position_m, place.radius_m});
-    s.rays->queries.ask(s.scene, item, s.asked, {options.samples, options.nearest_m, options.threads}, shares);
+    s.rays->queries.ask(s.scene, placed(light, light_at), s.asked, {options.samples, options.nearest_m, options.threads}, shares);
 }
 
 }  // namespace gnomon

@@ -78,6 +78,16 @@ TEST_F(VisibilityOfACube, WhatIsNotPlacedCastsNothing) {
     EXPECT_EQ(ask(queries, kBelow_m), 0.0f) << "the first one stayed";
 }
 
+TEST_F(VisibilityOfACube, TakesALightsPoseAndConeAsFramesDo) {
+    Light light{.kind = LightKind::spot, .outer_cone_rad = 2.0f};
+    EXPECT_EQ(ask(queries, {0.0, 7.0, 0.5}, light), 0.0f) << "no cone reaches behind its lamp";
+    EXPECT_EQ(ask(queries, {0.0, 7.0, -0.5}, light), 1.0f);
+    const LitPlace ahead{{0.0, 5.0, -2.0}};
+    float share = -1.0f;
+    queries.ask(light, {glm::dmat3(0.0), kAbove.translation_ws_m}, {&ahead, 1}, {&share, 1});
+    EXPECT_EQ(share, 1.0f) << "a basis without a direction counts as none";
+}
+
 TEST_F(VisibilityOfACube, ReadsTheLightsRangeAndCone) {
     Light light = kLamp;
     light.range_m = 3.0f;
