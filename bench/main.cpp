@@ -21,6 +21,7 @@
 #include "bench/flicker/flicker.h"
 #include "bench/frame/frame_compare.h"
 #include "bench/frame/frame_times.h"
+#include "bench/judge/judge_pictures.h"
 #include "bench/pictures/strip.h"
 #include "bench/queries/queries.h"
 #include "bench/scaling/light_count.h"
@@ -209,6 +210,17 @@ int run_pictures(const Arguments& arguments) {
     return 0;
 }
 
+int run_judge(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    JudgePicturesOptions options{arguments.visibility, arguments.area_side, {}};
+    if (!arguments.pictures.empty()) options.pictures = arguments.pictures;
+    const auto judged = judge_pictures(*stage.value(), options);
+    if (!judged) return fail(judged.error());
+    if (auto error = put_out(arguments, judge_table(judged.value()), judge_json(judged.value()))) return fail(*error);
+    return 0;
+}
+
 int run_redraws(const Arguments& arguments) {
     const auto table = redraws_table(arguments.stage, arguments.stability.frames);
     if (!table) return put_table(table);
@@ -267,6 +279,7 @@ constexpr Command kCommands[] = {
     {"filters", "every filter on one scene beside the truth: taps, error", add_filters, run_filters},
     {"pictures", "one view with a tutorial's shadow map, with Gnomon and by rays: a strip, wrong pixels in red",
      add_pictures, run_pictures},
+    {"judge", "shadows that another renderer drew against ray-traced truth", add_judge, run_judge},
     {"culling", "what finding receivers and casters and fitting to them costs", add_culling, run_culling_benchmarks},
     {"demand", "what shadows cost by the number of lights, economy on and off", add_demand, run_demand},
     {"budget", "what a unit of each kind of work takes that budgets reckon with", add_budget, run_budget_speeds},

@@ -6,7 +6,6 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr double kPercent = 100.0;
 constexpr double kUsPerMs = 1000.0;
 constexpr double kBytesPerMb = 1.0e6;
 

@@ -8,6 +8,13 @@
 
 namespace gnomon::bench {
 
+bool is_wrong(const TracedLight& light, std::size_t pixel, float measured) {
+    constexpr float kHalf = 0.5f;
+    const oracle::LightTruth& truth = light.point;
+    return truth.scored[pixel] && !truth.ambiguous[pixel] &&
+           !((measured > kHalf) == (truth.visibility[pixel] > kHalf) && measured >= 0.0f);
+}
+
 std::vector<std::uint32_t> TracedTruths::indices() const {
     std::vector<std::uint32_t> all;
     for (const TracedLight& light : lights) all.push_back(light.index);

@@ -11,7 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using oracle::PlacedTriangle;
 
-constexpr double kPercent = 100.0;
 /// Most lines of other triangles in a table. The JSON has all.
 constexpr std::size_t kShownTriangles = 20;
 

@@ -23,7 +23,7 @@ namespace gnomon::bench {
 struct Arguments {
     StageOptions stage;
     std::vector<std::string> scenes, against;
-    std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
+    std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter, visibility;
     std::uint32_t repeat = 9, rounds = 5, area_side = 0;
     StabilityOptions stability;
     std::string plot, drawings, filters, rows, markdown;
@@ -41,7 +41,7 @@ struct Arguments {
 /// A command's options.
 using AddOptions = void(CLI::App& command, Arguments& arguments);
 AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
-    add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures;
+    add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures, add_judge;
 
 /// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "time".
 std::optional<Error> complete(Arguments& arguments);

@@ -6,6 +6,7 @@
 #include "bench/common/parse_arguments.h"
 #include "bench/embed/host_engine.h"
 #include "bench/frame/frame_times.h"
+#include "bench/judge/judge_pictures.h"
 #include "bench/text/wrap_lines.h"
 
 namespace gnomon::bench {
@@ -30,6 +31,13 @@ void add_scene(CLI::App& command, Arguments& arguments) {
 
 void add_rounds(CLI::App& command, std::uint32_t& rounds, const char* words) {
     command.add_option("--rounds", rounds, words)->check(CLI::Range(1u, kMaxRepeats))->capture_default_str();
+}
+
+void add_area(CLI::App& command, Arguments& arguments) {
+    command
+        .add_option("--area", arguments.area_side,
+                    "judge edges by the lit share of each pixel's area as well, by N x N rays a pixel: 16 for figures")
+        ->check(CLI::Range(0u, kMostAreaSide));
 }
 
 void add_markdown(CLI::App& command, Arguments& arguments, const char* words) {
@@ -57,10 +65,7 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     command.add_flag("--quick", arguments.quick, "the same as --sweep quick");
     command.add_option("--out", arguments.out, "with --sweep: folder of the report, and of what it goes on from")
         ->capture_default_str();
-    command
-        .add_option("--area", arguments.area_side,
-                    "judge edges by the lit share of each pixel's area as well, by N x N rays a pixel: 16 for figures")
-        ->check(CLI::Range(0u, kMostAreaSide));
+    add_area(command, arguments);
     command.add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
     command.add_option("--filters", arguments.rows,
                        "cost and error of rows of the filter table: all, or part of a name");
@@ -116,6 +121,17 @@ void add_pictures(CLI::App& command, Arguments& arguments) {
     add_scene(command, arguments);
     command.add_option("--out", arguments.plot, "F.png: the strip")->required();
     add_markdown(command, arguments, "page whose text between <!-- strip --> and <!-- end of strip --> is replaced");
+}
+
+void add_judge(CLI::App& command, Arguments& arguments) {
+    add_scene(command, arguments);
+    command
+        .add_option("--visibility", arguments.visibility,
+                    "folder of <light>.pfm: what of each light a pixel sees, 0 to 1, bottom row first; -1 no surface")
+        ->required();
+    command.add_option("--pictures", arguments.pictures, "folder for <light>.png: in grey, wrong pixels in red");
+    add_area(command, arguments);
+    command.footer([] { return judge_legend(); });
 }
 
 void add_culling(CLI::App& command, Arguments& arguments) {

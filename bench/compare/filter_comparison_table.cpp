@@ -6,8 +6,6 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr double kPercent = 100.0;
-
 std::string joined(const std::vector<std::string>& words, const char* between = ", ") {
     std::string all;
     for (const std::string& word : words) all += (all.empty() ? "" : between) + word;

@@ -10,6 +10,7 @@
 #include "bench/compare/filter_variants.h"
 #include "bench/flicker/map_readback.h"
 #include "bench/glsl_on_cpu/cpu_lookup.h"
+#include "bench/text/printf_string.h"
 #include "sample_game/support/files/image_files.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/light_kinds.h"
@@ -101,7 +102,6 @@ double mean_error(const LightAccuracy& light) {
 constexpr const char* kTableHead =
     "| filter | light | taps | E | wrong % | mean error % | bailing saves % | changes % | makes wrong % |\n"
     "|---|---|---|---|---|---|---|---|---|\n";
-constexpr double kPercent = 100.0;
 constexpr float kHalf = 0.5f;
 
 std::string table_line(const FilterVariant& variant, const LightAccuracy& light, const TapCount& taps) {

@@ -9,13 +9,13 @@
 #include "bench/common/png_file.h"
 #include "bench/compare/crop_images.h"
 #include "bench/compare/evaluate_configuration.h"
+#include "bench/text/printf_string.h"
 
 namespace gnomon::bench {
 namespace {
 
 constexpr glm::uvec2 kPart_px{288, 192};
 constexpr std::uint32_t kGap_px = 4;
-constexpr double kPercent = 100.0;
 using Rgb = std::array<std::uint8_t, 3>;
 constexpr Rgb kPaper{255, 255, 255}, kWrong{235, 40, 30};
 
@@ -23,12 +23,6 @@ constexpr Rgb kPaper{255, 255, 255}, kWrong{235, 40, 30};
 std::vector<std::string> tutorial_settings() {
     return {"filter=pcf_grid", "filter_size=3", "bias=tutorial_cosine", "resolution=1024",
             "fit=stable",      "cascades=1",    "caster_faces=both"};
-}
-
-bool is_wrong(const TracedLight& light, const std::vector<float>& measured, std::size_t i) {
-    constexpr float kHalf = 0.5f;
-    return light.point.scored[i] && !light.point.ambiguous[i] &&
-           !((measured[i] > kHalf) == (light.point.visibility[i] > kHalf) && measured[i] >= 0.0f);
 }
 
 std::optional<Error> judge(Stage& stage, const TracedTruths& truths, StripColumn& column) {
@@ -40,7 +34,7 @@ std::optional<Error> judge(Stage& stage, const TracedTruths& truths, StripColumn
         StripLight& judged = column.lights.emplace_back(StripLight{light.name});
         for (std::size_t i = 0; i < measured.size(); ++i) {
             judged.scored += light.point.scored[i] && !light.point.ambiguous[i];
-            if (!is_wrong(light, measured, i)) continue;
+            if (!is_wrong(light, i, measured[i])) continue;
             ++judged.wrong;
             column.wrong[i] = 1;
         }

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -52,6 +54,31 @@ std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t 
         at += sizeof bits;
     }
     return write_file(file, bytes);
+}
+
+Result<Pfm> read_pfm(const std::filesystem::path& file) {
+    const auto refused = [&](const char* why) {
+        return Error{.message = why, .file = file.string(), .rule = "input.read"};
+    };
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return refused("cannot be read");
+    std::string kind;
+    std::uint32_t width = 0, height = 0;
+    double scale = 0.0;
+    // The last digit of the scale is followed by one line break.
+    if (!(in >> kind >> width >> height >> scale) || kind != "Pf" || scale >= 0.0 || in.get() != '\n')
+        return refused("no greyscale PFM file with little-endian numbers");
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    Pfm read{{width, height}, {}};
+    const std::uint64_t count = std::uint64_t{width} * height;
+    if (count == 0 || bytes.size() != count * sizeof(float)) return refused("its length does not fit its size");
+    read.values.resize(count);
+    for (std::size_t i = 0; i < read.values.size(); ++i) {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, bytes.data() + i * sizeof bits, sizeof bits);
+        read.values[i] = std::bit_cast<float>(little_endian(bits));
+    }
+    return read;
 }
 
 std::optional<Error> check_writable(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +14,14 @@ namespace gnomon::game {
 /// "output.write", naming the file.
 std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const float> values);
+
+struct Pfm {
+    glm::uvec2 size_px{0, 0};
+    std::vector<float> values;  // bottom row first
+};
+/// Reads what write_pfm() writes. Errors: rule "input.read", naming the file, for anything else: colours, big-endian
+/// numbers, another length.
+Result<Pfm> read_pfm(const std::filesystem::path& file);
 
 std::optional<Error> write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 

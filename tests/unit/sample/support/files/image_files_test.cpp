@@ -35,6 +35,30 @@ TEST_F(PictureFiles, PfmIsAHeaderAndLittleEndianFloatsBottomRowFirst) {
     EXPECT_TRUE(write_pfm(folder_ / "b.pfm", 2, 2, values)) << "sizes that disagree must be refused";
 }
 
+TEST_F(PictureFiles, PfmIsReadAsItWasWrittenAndRefusedOtherwise) {
+    const std::vector<float> values{1.0f, -1.0f, 0.25f, 0.0f, 0.5f, 1.0f};
+    ASSERT_FALSE(write_pfm(folder_ / "a.pfm", 2, 3, values));
+    const auto read = read_pfm(folder_ / "a.pfm");
+    ASSERT_TRUE(read) << to_line(read.error());
+    EXPECT_EQ(read.value().size_px, glm::uvec2(2, 3));
+    EXPECT_EQ(read.value().values, values);
+
+    const std::string whole = content(folder_ / "a.pfm");
+    const std::string spoiled[] = {"",
+                                   "PF" + whole.substr(2),                        // colours
+                                   "Pf\n2 3\n1.0\n" + whole.substr(12),          // big-endian
+                                   "Pf\n4294967295 4294967295\n-1.0\n",          // more than there is
+                                   "Pf\n0 0\n-1.0\n", whole.substr(0, whole.size() - 1), whole + "x"};
+    for (const std::string& text : spoiled) {
+        std::ofstream(folder_ / "b.pfm", std::ios::binary) << text;
+        const auto refused = read_pfm(folder_ / "b.pfm");
+        ASSERT_FALSE(refused) << text.substr(0, 20);
+        EXPECT_EQ(refused.error().rule, "input.read");
+        EXPECT_THAT(refused.error().file, ::testing::HasSubstr("b.pfm"));
+    }
+    EXPECT_FALSE(read_pfm(folder_ / "none.pfm"));
+}
+
 TEST_F(PictureFiles, PngStartsWithItsSignatureAndSize) {
     const std::vector<std::uint8_t> rgba(std::size_t{3} * 2 * 4, 200);
     const auto png = encode_png(3, 2, rgba);

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/common/stage.h"
+#include "gnomon/result.h"
+#include "tests/oracle/area_truth.h"
+#include "tests/oracle/metrics.h"
+
+/// Shadows that another renderer drew, against ray-traced truth.
+namespace gnomon::bench {
+
+struct JudgedPicture {
+    std::string light;
+    oracle::Metrics metrics;
+    std::optional<oracle::AreaMetrics> area;  // empty: not asked
+};
+struct JudgedPictures {
+    std::string scene;
+    glm::uvec2 size_px{0, 0};
+    std::vector<JudgedPicture> lights;  // lights with a LightShadow
+};
+
+struct JudgePicturesOptions {
+    std::filesystem::path folder;  // <light>.pfm, as the game's --visibility writes them
+    std::uint32_t area_side = 0;   // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
+    std::optional<std::filesystem::path> pictures;  // folder for <light>.png: visibility in grey, wrong pixels in red
+};
+
+/// Compares pictures of visibility with rays through the same camera. Errors: "input.read" for a light without a
+/// picture, "bench.size" for a picture of another size than the stage's, "bench.camera", "output.*".
+Result<JudgedPictures> judge_pictures(Stage& stage, const JudgePicturesOptions& options);
+
+/// Returns the meaning of the table's columns, for --help.
+std::string judge_legend();
+/// Returns a table for people.
+std::string judge_table(const JudgedPictures& judged);
+/// Returns all figures for scripts.
+std::string judge_json(const JudgedPictures& judged);
+
+}  // namespace gnomon::bench
