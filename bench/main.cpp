@@ -213,9 +213,8 @@ int run_pictures(const Arguments& arguments) {
 int run_judge(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
-    JudgePicturesOptions options{arguments.visibility, arguments.area_side, {}};
-    if (!arguments.pictures.empty()) options.pictures = arguments.pictures;
-    const auto judged = judge_pictures(*stage.value(), options);
+    const auto judged =
+        judge_pictures(*stage.value(), {arguments.visibility, arguments.area_side, arguments.beside});
     if (!judged) return fail(judged.error());
     if (auto error = put_out(arguments, judge_table(judged.value()), judge_json(judged.value()))) return fail(*error);
     return 0;

@@ -22,8 +22,8 @@ namespace gnomon::bench {
 
 struct Arguments {
     StageOptions stage;
-    std::vector<std::string> scenes, against;
-    std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter, visibility;
+    std::vector<std::string> scenes, against, visibility;
+    std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5, area_side = 0;
     StabilityOptions stability;
     std::string plot, drawings, filters, rows, markdown;
@@ -33,7 +33,7 @@ struct Arguments {
     EmbedOptions embed;
     CheckCommand check;
     std::string sweep, sweep_rows;
-    bool quick = false, audit = false;
+    bool quick = false, audit = false, beside = false;
     std::string out = "gnomon_sweep";
     bool rounds_given = false, repeat_given = false, size_given = false, lights_given = false;
 };

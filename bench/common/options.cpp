@@ -127,9 +127,9 @@ void add_judge(CLI::App& command, Arguments& arguments) {
     add_scene(command, arguments);
     command
         .add_option("--visibility", arguments.visibility,
-                    "folder of <light>.pfm: what of each light a pixel sees, 0 to 1, bottom row first; -1 no surface")
+                    "folders of <light>.pfm: what of each light a pixel sees, 0 to 1, bottom row first; -1 no surface")
         ->required();
-    command.add_option("--pictures", arguments.pictures, "folder for <light>.png: in grey, wrong pixels in red");
+    command.add_flag("--pictures", arguments.beside, "write <light>.png beside each file: in grey, wrong pixels in red");
     add_area(command, arguments);
     command.footer([] { return judge_legend(); });
 }

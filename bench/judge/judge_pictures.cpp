@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "bench/accuracy/reference_images.h"
@@ -32,6 +33,52 @@ std::optional<Error> write_wrong_pixels(const TracedLight& light, const game::Pf
     return write_png(file, picture.size_px.x, picture.size_px.y, rgba);
 }
 
+Result<game::Pfm> read_picture(const std::filesystem::path& file, glm::uvec2 size_px) {
+    auto read = game::read_pfm(file);
+    if (read && read.value().size_px != size_px)
+        return Error{.message = "has " + size_text(read.value().size_px) + " pixels, not " + size_text(size_px) + " (--size)",
+                     .file = file.string(),
+                     .rule = "bench.size"};
+    return read;
+}
+
+void append_table(const JudgedFolder& folder, std::string& text) {
+    text += formatted("\n%s\n%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s\n", folder.folder.c_str(), "errors of light",
+                      "pixels", "wrong%", "fshadow%", "flight%", "acne%", "leak%", "mean", "p95", "max");
+    for (const JudgedPicture& light : folder.lights) {
+        const oracle::Metrics& m = light.metrics;
+        const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
+        text += formatted("%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.2f %6.2f\n", light.light.c_str(),
+                          m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
+                          percent(m.acne), percent(m.leak), m.edge.mean_px, m.edge.p95_px, m.edge.max_px);
+    }
+    if (folder.lights.empty() || !folder.lights.front().area) return;
+    text += formatted("%-18s %8s %8s %8s %8s\n", "edges by area", "crossed", "error", "bias", "p99");
+    for (const JudgedPicture& light : folder.lights)
+        text += formatted("%-18.18s %8zu %8.4f %+8.4f %8.4f\n", light.light.c_str(), light.area->crossed,
+                          light.area->mean_error, light.area->bias, light.area->p99_error);
+}
+
+nlohmann::ordered_json figures_of(const JudgedPicture& light) {
+    const oracle::Metrics& m = light.metrics;
+    nlohmann::ordered_json figures = {{"name", light.light},
+                                      {"scored_px", m.scored},
+                                      {"wrong", m.fraction(m.wrong)},
+                                      {"false_shadow", m.fraction(m.false_shadow)},
+                                      {"false_light", m.fraction(m.false_light)},
+                                      {"acne", m.fraction(m.acne)},
+                                      {"leak", m.fraction(m.leak)},
+                                      {"edge_mean_px", m.edge.mean_px},
+                                      {"edge_p95_px", m.edge.p95_px},
+                                      {"edge_max_px", m.edge.max_px}};
+    if (light.area)
+        figures["area"] = {{"crossed_px", light.area->crossed},
+                           {"mean_error", light.area->mean_error},
+                           {"bias", light.area->bias},
+                           {"p99_error", light.area->p99_error}};
+    return figures;
+}
+
 }  // namespace
 
 Result<JudgedPictures> judge_pictures(Stage& stage, const JudgePicturesOptions& options) {
@@ -39,29 +86,26 @@ Result<JudgedPictures> judge_pictures(Stage& stage, const JudgePicturesOptions& 
     if (!traced) return traced.error();
     const TracedTruths& truths = traced.value();
     const SceneSnapshot& scene = stage.frame().snapshot();
-    if (options.pictures)
-        if (auto error = game::make_writable_folder(*options.pictures)) return *error;
     JudgedPictures judged{stage.scene_name(), truths.hits.size_px, {}};
+    for (const std::string& folder : options.folders) judged.folders.push_back({folder, {}});
     for (const TracedLight& light : truths.lights) {
-        const std::filesystem::path file = options.folder / (light.name + ".pfm");
-        const auto read = game::read_pfm(file);
-        if (!read) return read.error();
-        const game::Pfm& picture = read.value();
-        if (picture.size_px != truths.hits.size_px)
-            return Error{.message = "has " + size_text(picture.size_px) + " pixels, not " +
-                                    size_text(truths.hits.size_px) + " (--size)",
-                         .file = file.string(),
-                         .rule = "bench.size"};
-        JudgedPicture& of = judged.lights.emplace_back(JudgedPicture{light.name, {}, {}});
-        of.metrics = oracle::compare({picture.size_px, picture.values, light.point.visibility, light.point.scored,
-                                      light.point.ambiguous});
-        if (options.pictures)
-            if (auto error = write_wrong_pixels(light, picture, *options.pictures / (light.name + ".png")))
+        std::optional<oracle::AreaTruth> area;
+        if (options.area_side > 0)
+            area = truths.tracer->trace_area(scene.consumers.front(), truths.hits, light.point,
+                                             scene.lights[light.index], {options.area_side});
+        for (JudgedFolder& folder : judged.folders) {
+            const std::filesystem::path file = std::filesystem::path(folder.folder) / (light.name + ".pfm");
+            const auto read = read_picture(file, truths.hits.size_px);
+            if (!read) return read.error();
+            const game::Pfm& picture = read.value();
+            JudgedPicture& of = folder.lights.emplace_back(JudgedPicture{light.name, {}, {}});
+            of.metrics = oracle::compare({picture.size_px, picture.values, light.point.visibility, light.point.scored,
+                                          light.point.ambiguous});
+            if (area) of.area = oracle::compare_area(*area, picture.values, light.point.ambiguous);
+            if (!options.pictures) continue;
+            if (auto error = write_wrong_pixels(light, picture, std::filesystem::path(file).replace_extension("png")))
                 return *error;
-        if (options.area_side == 0) continue;
-        const oracle::AreaTruth area = truths.tracer->trace_area(scene.consumers.front(), truths.hits, light.point,
-                                                                 scene.lights[light.index], {options.area_side});
-        of.area = oracle::compare_area(area, picture.values, light.point.ambiguous);
+        }
     }
     return judged;
 }
@@ -78,48 +122,21 @@ std::string judge_legend() {
 }
 
 std::string judge_table(const JudgedPictures& judged) {
-    std::string text = formatted("scene   %s\npicture %s\n\n", judged.scene.c_str(), size_text(judged.size_px).c_str());
-    text += formatted("%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s\n", "errors of light", "pixels", "wrong%", "fshadow%",
-                      "flight%", "acne%", "leak%", "mean", "p95", "max");
-    for (const JudgedPicture& light : judged.lights) {
-        const oracle::Metrics& m = light.metrics;
-        const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
-        text += formatted("%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.2f %6.2f\n", light.light.c_str(),
-                          m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
-                          percent(m.acne), percent(m.leak), m.edge.mean_px, m.edge.p95_px, m.edge.max_px);
-    }
-    if (judged.lights.empty() || !judged.lights.front().area) return text;
-    text += formatted("\n%-18s %8s %8s %8s %8s\n", "edges by area", "crossed", "error", "bias", "p99");
-    for (const JudgedPicture& light : judged.lights)
-        text += formatted("%-18.18s %8zu %8.4f %+8.4f %8.4f\n", light.light.c_str(), light.area->crossed,
-                          light.area->mean_error, light.area->bias, light.area->p99_error);
+    std::string text = formatted("scene   %s\npicture %s\n", judged.scene.c_str(), size_text(judged.size_px).c_str());
+    for (const JudgedFolder& folder : judged.folders) append_table(folder, text);
     return text;
 }
 
 std::string judge_json(const JudgedPictures& judged) {
-    nlohmann::ordered_json lights = nlohmann::ordered_json::array();
-    for (const JudgedPicture& light : judged.lights) {
-        const oracle::Metrics& m = light.metrics;
-        nlohmann::ordered_json of = {{"name", light.light},
-                                     {"scored_px", m.scored},
-                                     {"wrong", m.fraction(m.wrong)},
-                                     {"false_shadow", m.fraction(m.false_shadow)},
-                                     {"false_light", m.fraction(m.false_light)},
-                                     {"acne", m.fraction(m.acne)},
-                                     {"leak", m.fraction(m.leak)},
-                                     {"edge_mean_px", m.edge.mean_px},
-                                     {"edge_p95_px", m.edge.p95_px},
-                                     {"edge_max_px", m.edge.max_px}};
-        if (light.area)
-            of["area"] = {{"crossed_px", light.area->crossed},
-                          {"mean_error", light.area->mean_error},
-                          {"bias", light.area->bias},
-                          {"p99_error", light.area->p99_error}};
-        lights.push_back(std::move(of));
+    nlohmann::ordered_json folders = nlohmann::ordered_json::array();
+    for (const JudgedFolder& folder : judged.folders) {
+        nlohmann::ordered_json lights = nlohmann::ordered_json::array();
+        for (const JudgedPicture& light : folder.lights) lights.push_back(figures_of(light));
+        folders.push_back({{"folder", folder.folder}, {"lights", std::move(lights)}});
     }
     constexpr int kIndent = 1;
     const nlohmann::ordered_json json = {
-        {"scene", judged.scene}, {"size_px", {judged.size_px.x, judged.size_px.y}}, {"lights", lights}};
+        {"scene", judged.scene}, {"size_px", {judged.size_px.x, judged.size_px.y}}, {"folders", folders}};
     return json.dump(kIndent) + "\n";
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,20 +16,24 @@ struct JudgedPicture {
     oracle::Metrics metrics;
     std::optional<oracle::AreaMetrics> area;  // empty: not asked
 };
+struct JudgedFolder {
+    std::string folder;
+    std::vector<JudgedPicture> lights;  // lights with a LightShadow
+};
 struct JudgedPictures {
     std::string scene;
     glm::uvec2 size_px{0, 0};
-    std::vector<JudgedPicture> lights;  // lights with a LightShadow
+    std::vector<JudgedFolder> folders;
 };
 
 struct JudgePicturesOptions {
-    std::filesystem::path folder;  // <light>.pfm, as the game's --visibility writes them
+    std::vector<std::string> folders;  // of <light>.pfm, as the game's --visibility writes them
     std::uint32_t area_side = 0;   // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
-    std::optional<std::filesystem::path> pictures;  // folder for <light>.png: visibility in grey, wrong pixels in red
+    bool pictures = false;         // writes <light>.png beside each file: visibility in grey, wrong pixels in red
 };
 
-/// Compares pictures of visibility with rays through the same camera. Errors: "input.read" for a light without a
-/// picture, "bench.size" for a picture of another size than the stage's, "bench.camera", "output.*".
+/// Compares pictures of visibility with rays through the same camera, traced once for all folders. Errors: "input.read" for a light without a
+/// picture, "bench.size" for a picture of another size than the stage's, "bench.camera", "output.write".
 Result<JudgedPictures> judge_pictures(Stage& stage, const JudgePicturesOptions& options);
 
 /// Returns the meaning of the table's columns, for --help.

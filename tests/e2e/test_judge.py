@@ -48,10 +48,10 @@ class JudgeTest(unittest.TestCase):
         self.draw("--set", "enabled=off")
         code, text, without = self.judge("--size", SIZE)
         self.assertEqual(code, 0, text)
-        self.assertEqual([light["name"] for light in right["lights"]], list(LIGHTS))
+        self.assertEqual([light["name"] for light in right["folders"][0]["lights"]], list(LIGHTS))
         code, text, measured = self.measure("accuracy", "--repeat", "0", "--size", SIZE, "--area", "4")
         self.assertEqual(code, 0, text)
-        for drawn, lit, own in zip(right["lights"], without["lights"], measured["lights"]):
+        for drawn, lit, own in zip(right["folders"][0]["lights"], without["folders"][0]["lights"], measured["lights"]):
             self.assertGreater(drawn["scored_px"], 1000)
             # The same pictures, read from files and from the frame.
             self.assertEqual([drawn[key] for key in ("scored_px", "wrong", "acne", "leak")],

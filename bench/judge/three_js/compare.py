@@ -12,7 +12,7 @@ far plane its range or the scene. "best": of all tried settings the one with few
 """
 import argparse
 import json
-import os
+import struct
 import subprocess
 import sys
 import tarfile
@@ -44,6 +44,19 @@ def fetch_three(version, out):
     return folder / "package"
 
 
+def stand_still(file):
+    """Takes motions, which are Gnomon's own extras, out of a GLB: three.js leaves everything where it rests."""
+    data = file.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    scene = json.loads(data[20:20 + length])
+    for node in scene["nodes"]:
+        node.get("extras", {}).pop("motion", None)
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + length:]
+    file.write_bytes(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)
+
+
 def tried(quick):
     sizes, biases, normals = ((2048,), BIASES[:2], NORMAL_BIASES[:2]) if quick else (SIZES, BIASES, NORMAL_BIASES)
     grid = [{"name": "%d %g %g" % (size, bias, normal), "map_size": size, "bias": bias, "normal_bias": normal}
@@ -59,14 +72,12 @@ def draw(three, scene, out, size, settings, timed):
     return json.loads(run(["node", HERE / "draw.mjs", options]))
 
 
-def judge(bench, folder, size, area, pictures=None):
-    """{light: figures} of the visibilities in a folder."""
-    file = folder / "judged.json"
-    more = ["--area", AREA_SIDE] if area else []
-    if pictures:
-        more += ["--pictures", pictures]
-    run([bench, "judge", "--visibility", folder, "--size", size, "--json", file, *more])
-    return {light["name"]: light for light in json.loads(file.read_text(encoding="utf-8"))["lights"]}
+def judge(bench, scene, folders, size, *flags):
+    """{name of a folder: {light: figures}} of the visibilities in them; the same rays for all."""
+    file = folders[0].parent / "judged.json"
+    run([bench, "judge", "--scene", scene, "--visibility", *folders, "--size", size, "--json", file, *flags])
+    found = json.loads(file.read_text(encoding="utf-8"))["folders"]
+    return {Path(folder["folder"]).name: {light["name"]: light for light in folder["lights"]} for folder in found}
 
 
 def gnomons_ms(bench, size, out):
@@ -97,15 +108,14 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     three, scene = fetch_three(options.three, out), out / "courtyard.glb"
     run([options.bin / "gnomon_scene_generator", scene])
+    stand_still(scene)
 
     own = out / "gnomon"
-    run([options.bin / "gnomon_game", "--headless", "--frames", "3", "--time", "0", "--size", options.size,
+    run([options.bin / "gnomon_game", "--headless", "--scene", scene, "--frames", "3", "--size", options.size,
          "--visibility", own])
-    judged = {"gnomon": judge(bench, own, options.size, True, own)}
     settings = tried(options.quick)
     end = draw(three, scene, out, options.size, settings, 0)
-    for each in settings:
-        judged[each["name"]] = judge(bench, out / each["name"], options.size, each["name"] == "defaults")
+    judged = judge(bench, scene, [own] + [out / each["name"] for each in settings], options.size)
     lights = list(judged["gnomon"])
 
     best = {}
@@ -114,8 +124,7 @@ def main():
         best[size] = {light: min(of_size, key=lambda each: judged[each["name"]][light]["wrong"])["name"] for light in lights}
     chosen = [each for each in settings if each["name"] == "defaults" or any(each["name"] in b.values() for b in best.values())]
     timed = draw(three, scene, out, options.size, chosen, TIMED_FRAMES)["times"]
-    for each in chosen:
-        judged[each["name"]] = judge(bench, out / each["name"], options.size, True, out / each["name"])
+    judged |= judge(bench, scene, [own] + [out / each["name"] for each in chosen], options.size, "--area", AREA_SIDE, "--pictures")
     with_ms, without_ms = gnomons_ms(bench, options.size, out)
 
     rows = [("three.js, its defaults", {light: "defaults" for light in lights})]

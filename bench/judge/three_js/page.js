@@ -68,7 +68,8 @@ async function main() {
   scene.traverse((object) => {
     if (object.isLight) lights.push(object);
     if (!object.isMesh) return;
-    object.castShadow = object.receiveShadow = true;
+    object.castShadow = object.userData.castShadow !== false;  // extras of the file's nodes
+    object.receiveShadow = true;
     materials.add(object.material);
     box.expandByObject(object, true);
   });
