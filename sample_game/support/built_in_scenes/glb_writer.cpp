@@ -42,6 +42,14 @@ tinygltf::Value value_of(const nlohmann::ordered_json& json) {
     return tinygltf::Value(members);
 }
 
+/// Lets a node carry a light. tinygltf 2.9 writes the member, and takes the extension away from nodes without it;
+/// 2.7 has no such member.
+template <class Node>
+void set_light(Node& node, std::uint32_t light) {
+    node.extensions["KHR_lights_punctual"] = value_of({{"light", light}});
+    if constexpr (requires { node.light; }) node.light = static_cast<int>(light);
+}
+
 /// Blanks the end of infinite projections. tinygltf 2.7 writes 0 for it, which glTF forbids.
 void blank_ends(std::string& glb) {
     constexpr std::string_view kEnd = R"("zfar":0.0,)";
@@ -249,7 +257,7 @@ std::uint32_t GlbBuilder::add_node(const NodeSpec& spec) {
         triangles_ += mesh_triangles_[*spec.mesh];
     }
     if (spec.camera) node.camera = static_cast<int>(*spec.camera);
-    if (spec.light) node.extensions["KHR_lights_punctual"] = value_of({{"light", *spec.light}});
+    if (spec.light) set_light(node, *spec.light);
     if (!spec.extras.is_null()) node.extras = value_of(spec.extras);
     const std::uint32_t index = add(model_->nodes, node);
     (spec.parent ? model_->nodes[*spec.parent].children : top_nodes_).push_back(static_cast<int>(index));
