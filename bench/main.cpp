@@ -22,6 +22,7 @@
 #include "bench/frame/frame_compare.h"
 #include "bench/frame/frame_times.h"
 #include "bench/judge/judge_pictures.h"
+#include "bench/pictures/edges.h"
 #include "bench/pictures/strip.h"
 #include "bench/queries/queries.h"
 #include "bench/scaling/light_count.h"
@@ -220,6 +221,16 @@ int run_judge(const Arguments& arguments) {
     return 0;
 }
 
+int run_edges(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    const auto edges = make_edges(*stage.value());
+    if (!edges) return fail(edges.error());
+    if (auto error = write_edges(edges.value(), arguments.plot)) return fail(*error);
+    print(edges_table(edges.value()));
+    return 0;
+}
+
 int run_redraws(const Arguments& arguments) {
     const auto table = redraws_table(arguments.stage, arguments.stability.frames);
     if (!table) return put_table(table);
@@ -279,6 +290,8 @@ constexpr Command kCommands[] = {
     {"pictures", "one view with a tutorial's shadow map, with Gnomon and by rays: a strip, wrong pixels in red",
      add_pictures, run_pictures},
     {"judge", "shadows that another renderer drew against ray-traced truth", add_judge, run_judge},
+    {"edges", "one view with one sample per pixel, smoothed, and with 64: a part at 200 %, and how far they are apart",
+     add_edges, run_edges},
     {"culling", "what finding receivers and casters and fitting to them costs", add_culling, run_culling_benchmarks},
     {"demand", "what shadows cost by the number of lights, economy on and off", add_demand, run_demand},
     {"budget", "what a unit of each kind of work takes that budgets reckon with", add_budget, run_budget_speeds},

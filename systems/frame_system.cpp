@@ -8,9 +8,21 @@
 #include "systems/debug/debug_painter.h"
 #include "systems/extract/names.h"
 #include "systems/lighting/lighting_system.h"
+#include "systems/picture/edge_smoothing.h"
+#include "systems/picture/picture_changes.h"
+#include "systems/picture/picture_samples.h"
 #include "systems/shadow/shadow_system.h"
 
 namespace gnomon {
+namespace {
+
+/// Samples from which on a picture's mean needs no smoothing.
+constexpr std::uint32_t kSmoothSamples = 8;
+
+/// Pixels beyond the picture's edges that its samples may see.
+constexpr double kJitterMargin_px = 1.0;
+
+}  // namespace
 
 Result<std::unique_ptr<FrameSystem>> FrameSystem::create(gl::Device& device, const assets::MeshLibrary& library,
                                                          const shadow::History& fit_history) {
@@ -26,6 +38,9 @@ FrameSystem::FrameSystem(gl::Device& device, const assets::MeshLibrary& library,
       gpu_scene_(std::move(scene)),
       shadows_(std::make_unique<shadow::ShadowSystem>(device, fit_history)),
       lighting_(std::make_unique<lighting::LightingSystem>(device)),
+      changes_(std::make_unique<picture::PictureChanges>()),
+      samples_(std::make_unique<picture::PictureSamples>(device)),
+      smoothing_(std::make_unique<picture::EdgeSmoothing>(device)),
       debug_(std::make_unique<debug::DebugPainter>(device)) {
     feedback_.spare = &lighting_->spare();
 }
@@ -44,6 +59,8 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
     const TransformReport& transforms = transforms_.update(world);
     gpu_scene_.update_meshes(commands_);
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_, gpu_scene_.lacking_meshes());
+    for (ConsumerItem& camera : snapshot_.consumers)
+        camera.margin_px = settings.still_samples > 1 ? kJitterMargin_px : 0.0;
     report_.dropped = snapshot_.dropped;
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(feedback_.sampled_depths);
@@ -53,22 +70,7 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
                 report_.dropped.push_back({item.entity, name_of(world, item.entity), DropReason::instances_full});
     feedback_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
-    const bool sample_depths = !held && shadows_->wants_sampled_depths(snapshot_);
-    if (!sample_depths && !held) feedback_.sampled_depths = {};  // outdated when needed next
-    const bool measure_exposure =
-        settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->contribution_culling().wants_exposure();
-    if (!measure_exposure) lighting_->forget_exposure();
-    outcome_.clear();
-    has_picture_ =
-        !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
-                                                     {settings.exposure_ev, settings.programs_per_frame,
-                                                      measure_exposure, sample_depths, shadows_->maps().room()},
-                                                     commands_, outcome_);
-    shadows_->report(snapshot_, outcome_, report_);
-    if (has_picture_) {
-        const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
-        debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);
-    }
+    const bool reads_back = record_picture(shadows, settings, held);
     if (has_picture_ && settings.present) {
         const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
                            static_cast<std::int32_t>(settings.viewport_px.y)};
@@ -78,13 +80,56 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
     report_.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 
     const gl::SubmitResult result = device_.submit(commands_);
-    if (settings.repeatable && (sample_depths || measure_exposure)) device_.finish();
+    samples_->submitted(result.failure == gl::Failure::none);
+    if (settings.repeatable && reads_back) device_.finish();
     timed_lights_.submitted(result.submission, report_);
     // Measured times differ from run to run.
     const bool learn_costs = settings.shadow_budget.gpu_ms > 0.0f && !settings.repeatable;
     timed_lights_.tell(
         after_submission({device_, snapshot_, gpu_scene_, *shadows_, lighting_.get()}, result, learn_costs, report_),
         report_);
+}
+
+/// Records the picture, or what a still one lacks, and reports it. Returns whether the GPU's measurements are awaited.
+bool FrameSystem::record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool held) {
+    using Draws = picture::PictureSamples::Draws;
+    const bool unchanged = changes_->unchanged(snapshot_, shadows, settings) && has_picture_;
+    const Draws draws = samples_->begin(unchanged, settings.still_samples, settings.viewport_px);
+    const glm::dvec2 jitter_px = samples_->place_px();
+    const bool is_middle = jitter_px == glm::dvec2(0.0);  // measurements of other samples would move fits
+    const bool wants_depths = !held && shadows_->wants_sampled_depths(snapshot_);
+    if (!wants_depths && !held) feedback_.sampled_depths = {};  // outdated when needed next
+    const bool wants_exposure =
+        settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->contribution_culling().wants_exposure();
+    if (!wants_exposure) lighting_->forget_exposure();
+    const bool sample_depths = wants_depths && is_middle, measure_exposure = wants_exposure && is_middle;
+    if (draws != Draws::nothing) {
+        outcome_.clear();
+        has_picture_ = !shadows.inputs.empty() &&
+                       lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
+                                         {settings.exposure_ev, settings.programs_per_frame, measure_exposure,
+                                          sample_depths, shadows_->maps().room(), jitter_px},
+                                         commands_, outcome_);
+        if (!(outcome_.failures == shown_failures_)) samples_->restart();
+        shown_failures_ = outcome_.failures;
+    }
+    shadows_->report(snapshot_, outcome_, report_);
+    if (has_picture_) finish_picture(shadows, settings);
+    return draws != Draws::nothing && (sample_depths || measure_exposure);
+}
+
+/// Records what comes after the light: samples, smoothing, debug views, which neither blurs.
+void FrameSystem::finish_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings) {
+    const picture::FinishedPicture finished{lighting_->picture_texture(), lighting_->picture_target(),
+                                            lighting_->size_px()};
+    samples_->record(finished, commands_);
+    report_.samples = samples_->count();
+    if (!settings.smooth_edges)
+        smoothing_->release();
+    else if (report_.samples < kSmoothSamples)
+        smoothing_->record(finished, commands_);
+    const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
+    debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);
 }
 
 /// Returns the largest factor of the picture's radiance; empty: unknown, or not needed.

@@ -33,6 +33,11 @@ class DebugPainter;
 namespace lighting {
 class LightingSystem;
 }
+namespace picture {
+class EdgeSmoothing;
+class PictureChanges;
+class PictureSamples;
+}  // namespace picture
 
 /// Sequence of a frame as a list of calls: transforms, snapshot, shadows, lighting, submit. What gnomon::Frame is made
 /// of, on any device, and with all that it decided in view.
@@ -79,6 +84,8 @@ private:
                 GpuScene scene);
     std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
+    bool record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool held);
+    void finish_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings);
 
     gl::Device& device_;
     const assets::MeshLibrary& library_;
@@ -88,6 +95,9 @@ private:
     SceneSnapshot snapshot_;
     std::unique_ptr<shadow::ShadowSystem> shadows_;
     std::unique_ptr<lighting::LightingSystem> lighting_;
+    std::unique_ptr<picture::PictureChanges> changes_;
+    std::unique_ptr<picture::PictureSamples> samples_;
+    std::unique_ptr<picture::EdgeSmoothing> smoothing_;
     std::unique_ptr<debug::DebugPainter> debug_;
     std::optional<std::vector<ConsumerItem>> frozen_;  // cameras that shadows are fitted to
     std::vector<ConsumerItem> pictures_;               // drawing cameras meanwhile
@@ -96,6 +106,7 @@ private:
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;
+    std::vector<shadow::LookupFailure> shown_failures_;  // its lights' failures
     bool has_picture_ = false;
 };
 

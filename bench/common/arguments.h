@@ -41,7 +41,8 @@ struct Arguments {
 /// A command's options.
 using AddOptions = void(CLI::App& command, Arguments& arguments);
 AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
-    add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures, add_judge;
+    add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures, add_judge,
+    add_edges;
 
 /// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "time".
 std::optional<Error> complete(Arguments& arguments);

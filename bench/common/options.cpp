@@ -134,6 +134,11 @@ void add_judge(CLI::App& command, Arguments& arguments) {
     command.footer([] { return judge_legend(); });
 }
 
+void add_edges(CLI::App& command, Arguments& arguments) {
+    add_scene(command, arguments);
+    command.add_option("--out", arguments.plot, "F.png: the pictures beside each other")->required();
+}
+
 void add_culling(CLI::App& command, Arguments& arguments) {
     command.add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
 }

@@ -200,6 +200,7 @@ struct FrameReport {
     std::vector<ViewReport> views;       // views of all lights, in their order
     std::vector<DroppedEntity> dropped;  // entities that were unusable
     bool still = false;                  // no input of shadows changed: the stages' results of the last frame are valid
+    std::uint32_t samples = 1;           // per pixel in the picture, at most FrameSettings::still_samples
     std::uint64_t programs_compiled = 0;          // in this frame, failures included
     double shadow_cpu_us = 0.0;                   // time of all shadow stages on the CPU, microseconds
     double cpu_us = 0.0;                          // time of the whole frame on the CPU, microseconds
@@ -215,6 +216,7 @@ struct FrameReport {
     void clear() {
         views.clear();
         still = false;
+        samples = 1;
         programs_compiled = 0;
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();
@@ -246,6 +248,12 @@ struct FrameSettings {
     /// one tap and reports filter_program_waits. Default: no limit.
     std::uint32_t programs_per_frame = ~0u;
     bool rays = true;  // false: lights with rays get a filtered map instead
+    /// Maximum number of samples per pixel. While nothing changes, each run() adds one and draws no map; the picture is
+    /// their mean. Once all are there, run() draws only that mean. Each change begins with the pixel's middle again.
+    /// Default: that alone. Debug views have one sample.
+    std::uint32_t still_samples = 1;
+    /// Smooth stair-steps of edges by what the picture itself shows, while it has fewer than 8 samples per pixel.
+    bool smooth_edges = false;
     /// Measure gpu_us. Software devices finish their work around each timer, which slows frames down. A budget in
     /// milliseconds measures by itself, except there.
     bool time_gpu = false;

@@ -80,6 +80,8 @@ FrameSettings frame_settings(const CommandLine& line) {
             .exposure_ev = line.exposure_ev,
             .debug = line.debug,
             .shadow_budget = line.shadow_budget,
+            .still_samples = line.debug.view ? 1 : still_samples(line),
+            .smooth_edges = !line.debug.view && smooths_edges(line),
             .time_gpu = line.stats.has_value()};
 }
 
@@ -114,8 +116,6 @@ std::optional<Error> write_picture(const std::filesystem::path& file, const Fram
 
 std::optional<Error> write_outputs(const CommandLine& line, const GameWorld& world, Frame& frame, glm::uvec2 size_px,
                                    const StatsFile& stats) {
-    if (line.screenshot)
-        if (auto error = write_picture(*line.screenshot, frame)) return error;
     if (line.visibility) {
         std::vector<float> values;
         for (const LightReport& light : frame.report().lights) {

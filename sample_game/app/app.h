@@ -37,7 +37,7 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 /// Returns the number of threads that a trace may take beside the drawing one.
 unsigned trace_threads();
 
-/// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
+/// Writes --visibility and --stats from the last frame, a picture of `size_px`.
 std::optional<Error> write_outputs(const CommandLine& line, const GameWorld& world, Frame& frame, glm::uvec2 size_px,
                                    const StatsFile& stats);
 

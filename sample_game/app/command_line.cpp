@@ -17,11 +17,13 @@ constexpr double kMaxTime_s = 1.0e9;
 constexpr double kMaxExposure_ev = 64.0;
 constexpr double kMaxBudget_ms = 1.0e6;
 constexpr double kFramesPerSecond = 60.0;
+constexpr std::uint64_t kMaxSamples = 1024;
+constexpr std::uint32_t kWindowSamples = 64;
 
 /// Arguments as typed, before they are parsed.
 struct Typed {
-    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms,
-        shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;
+    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, samples, smooth, shadow_bytes,
+        shadow_ms, shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -41,6 +43,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--frames", typed.frames, "N: frames to run, then exit");
     app.add_option("--time", typed.time, "SECONDS: scene time of the last frame");
     app.add_option("--exposure", typed.exposure, "EV|auto (default: auto)");
+    app.add_option(
+        "--samples", typed.samples,
+        "N: samples per pixel of a picture that stands still (default: 64 in a window without --frames, else 1)");
+    app.add_option("--smooth", typed.smooth,
+                   "on|off: smooth edges of pictures with few samples (default: on in a window without --frames)");
     app.add_option("--shadow-bytes", typed.shadow_bytes, "N: bytes that all shadow maps may hold (default: any)");
     app.add_option("--shadow-ms", typed.shadow_ms,
                    "X: milliseconds of the GPU that shadows may take in a frame (default: any)");
@@ -100,6 +107,17 @@ std::optional<Error> read_numbers(const Typed& typed, const CLI::App& app, Comma
         if (!exposure || !(std::abs(*exposure) <= kMaxExposure_ev))
             return wrong("--exposure: '" + typed.exposure + "' is neither auto nor an EV within +-64");
         line.exposure_ev = static_cast<float>(*exposure);
+    }
+    if (app.count("--samples") > 0) {
+        const std::uint64_t samples = read_count(typed.samples).value_or(0);
+        if (samples < 1 || samples > kMaxSamples)
+            return wrong("--samples: '" + typed.samples + "' is not a number of 1 to " + std::to_string(kMaxSamples));
+        line.samples = static_cast<std::uint32_t>(samples);
+    }
+    if (app.count("--smooth") > 0) {
+        if (typed.smooth != "on" && typed.smooth != "off")
+            return wrong("--smooth: '" + typed.smooth + "' is neither on nor off");
+        line.smooth = typed.smooth == "on";
     }
     if (app.count("--shadow-bytes") > 0) {
         line.shadow_budget.bytes = read_count(typed.shadow_bytes).value_or(0);
@@ -188,6 +206,12 @@ bool plays_game(const CommandLine& line) {
     return line.demo || !(line.headless || line.scene || line.camera || line.fit_camera || line.animation ||
                           line.frames || line.time_s);
 }
+
+std::uint32_t still_samples(const CommandLine& line) {
+    return line.samples.value_or(line.headless || line.frames ? 1 : kWindowSamples);
+}
+
+bool smooths_edges(const CommandLine& line) { return line.smooth.value_or(!line.headless && !line.frames); }
 
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames) {
     if (!line.time_s) return static_cast<double>(index) / kFramesPerSecond;

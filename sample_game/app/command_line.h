@@ -21,10 +21,12 @@ struct CommandLine {
     glm::uvec2 size_px{1280, 720};
     bool headless = false;
     bool demo = false;
-    std::optional<std::uint64_t> frames;  // > 0; empty: 1 headless, endless in a window
-    std::optional<double> time_s;         // scene time of the last frame
-    std::optional<float> exposure_ev;     // empty: automatic
-    shadow::ShadowBudget shadow_budget;   // what shadows may take
+    std::optional<std::uint64_t> frames;   // > 0; empty: 1 headless, endless in a window
+    std::optional<double> time_s;          // scene time of the last frame
+    std::optional<float> exposure_ev;      // empty: automatic
+    shadow::ShadowBudget shadow_budget;    // what shadows may take
+    std::optional<std::uint32_t> samples;  // per pixel, > 0; empty: see still_samples()
+    std::optional<bool> smooth;            // edges of moving pictures; empty: see smooths_edges()
     std::optional<std::filesystem::path> stats, screenshot, visibility;
     std::optional<std::filesystem::path> truth;  // the last frame beside its truth: picture with errors over it
     std::optional<std::string> truth_light;      // light with the errors to show; empty: each pixel's worst
@@ -40,6 +42,12 @@ Result<CommandLine> parse_command_line(int argc, const char* const* argv);
 /// Returns whether the game is played: --demo, or a window without --scene, --camera, --fit-camera, --animation,
 /// --frames and --time.
 bool plays_game(const CommandLine& line);
+
+/// Returns the samples per pixel of a picture that stands still: 64 in a window that runs until it is closed, else 1.
+std::uint32_t still_samples(const CommandLine& line);
+
+/// Returns whether edges of pictures with few samples are smoothed: in a window that runs until it is closed.
+bool smooths_edges(const CommandLine& line);
 
 /// Returns the scene time of frame `index` of `frames`. The last frame is at `line.time_s`; without it the first is at
 /// 0.

@@ -67,6 +67,15 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         if (i == 0) log_warnings(world, stage->frame->report(), log);
         if (line.stats) stats.add(stage->frame->report(), i, time_s, world.game ? &world.game->state() : nullptr);
     }
+    const auto note = [&](const FrameReport& report) {
+        if (line.stats)
+            stats.add(report, frames - 1, frame_time_s(line, frames - 1, frames),
+                      world.game ? &world.game->state() : nullptr);
+    };
+    if (!finish_samples(world, *stage->frame, settings, note))
+        log.warn("the picture lacks samples: some shadow does not come to rest");
+    if (stage->gui && settings.still_samples > 1)
+        stage->gui->draw(world, *stage->frame, line.size_px, nullptr, kStep_s);
     return write_last_frame(line, world, *stage->frame, settings, stage->gui.get(), stats);
 }
 

@@ -112,6 +112,7 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
             {"cpu_us", report.cpu_us},
             {"gpu_us", or_null(report.gpu_us)},
             {"programs_compiled", report.programs_compiled},
+            {"samples", report.samples},
             {"shadow", std::move(shadow)},
             {"lights", std::move(lights)},
             {"dropped", std::move(dropped)}};

@@ -197,6 +197,7 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
                 next_debug_light(world, gui.panel.debug);
         }
         if (pressed(input, Key::f3)) next_debug_view(world, gui.panel.debug);
+        if (pressed(input, Key::f6)) gui.panel.smooth_picture = !gui.panel.smooth_picture;
         if (pressed(input, Key::f4)) gui.panel.freeze_fits = !gui.panel.freeze_fits;
         const bool was_captured = captured;  // how the mouse came to where it clicked does not turn the head
         update_capture(input, window, gui.panel.shown, captured);
@@ -207,6 +208,10 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         settings.debug = gui.panel.debug;
         settings.freeze_fits = gui.panel.freeze_fits;
         settings.shadow_budget = gui.panel.budget;
+        // Errors and debug views are those of pixels' middles.
+        const bool may_smooth = gui.panel.smooth_picture && !gui.frozen.on() && !gui.panel.debug.view;
+        settings.still_samples = may_smooth ? still_samples(line) : 1;
+        settings.smooth_edges = may_smooth && smooths_edges(line);
         settings.time_gpu = line.stats || gui.panel.shown;  // the panel shows times
         const bool first = std::exchange(is_first, false);
         if (first) {
@@ -225,6 +230,10 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
             stats.add(frame.report(), play.frame() - 1, play.time_s(), world.game ? &world.game->state() : nullptr);
         title.frame_done(window, words_of_state(world, gui.frozen), frame.device().name);
     }
+    if (line.screenshot && !finish_samples(world, frame, settings, [](const FrameReport&) {}))
+        log.warn("the picture lacks samples: some shadow does not come to rest");
+    if (line.screenshot && settings.still_samples > 1)
+        gui.draw(world, frame, settings.viewport_px, nullptr, kFixedStep_s);
     return write_last_frame(line, world, frame, settings, &gui, stats);
 }
 

@@ -3,6 +3,8 @@
 namespace gnomon::game {
 namespace {
 
+constexpr std::uint32_t kSettlingRuns = 120;  // until nothing of shadows changes, which takes two seconds at most
+
 /// Freezes the last frame, compares it with its ray-traced truth, and adds the result to `stats`.
 std::optional<Error> judge(const CommandLine& line, GameWorld& world, Frame& frame, glm::uvec2 size_px,
                            FrozenFrame& frozen, StatsFile& stats) {
@@ -22,13 +24,28 @@ std::optional<Error> judge(const CommandLine& line, GameWorld& world, Frame& fra
 
 }  // namespace
 
+bool finish_samples(GameWorld& world, Frame& frame, const FrameSettings& settings,
+                    const std::function<void(const FrameReport&)>& after_frame) {
+    const std::uint32_t most_runs = settings.still_samples > 1 ? settings.still_samples + kSettlingRuns : 0;
+    for (std::uint32_t i = 0; i < most_runs && frame.report().samples < settings.still_samples; ++i) {
+        frame.run(world.registry, settings);
+        after_frame(frame.report());
+    }
+    return frame.report().samples >= settings.still_samples;
+}
+
 std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
                                       const FrameSettings& settings, Gui* gui, StatsFile& stats) {
+    if (line.screenshot)
+        if (auto error = write_picture(*line.screenshot, frame)) return error;
+    FrameSettings middle = settings;  // what is judged and written per pixel is that of its middle
+    middle.still_samples = 1;
+    if (settings.still_samples > 1 && (line.truth || line.visibility)) frame.run(world.registry, middle);
     if (line.truth)
         if (auto error = judge(line, world, frame, settings.viewport_px, gui->frozen, stats)) return error;
     if (auto error = write_outputs(line, world, frame, settings.viewport_px, stats)) return error;
     if (!line.truth) return std::nullopt;
-    frame.run(world.registry, settings);  // again, for a picture that nothing was drawn over
+    frame.run(world.registry, middle);  // again, for a picture that nothing was drawn over
     gui->draw(world, frame, settings.viewport_px, nullptr, kStep_s);
     return write_picture(*line.truth, frame);
 }

@@ -33,6 +33,7 @@ struct PanelState {
     bool toggle_motion = false;        // request; the caller applies and clears it
     debug::Request debug = {};         // for FrameSettings
     bool freeze_fits = false;          // for FrameSettings
+    bool smooth_picture = true;        // for FrameSettings: samples while nothing moves, smooth edges
     shadow::ShadowBudget budget = {};  // for FrameSettings
     bool toggle_frozen = false;        // request; the caller applies and clears it
     LightGraph graph = {};             // history of the frames in which the panel was shown

@@ -11,6 +11,7 @@ constexpr KeyRow kKeys[] = {
     {KeyPlace::shadows, "F3", "", "next debug view: cascades, texels, bias, frusta ..."},
     {KeyPlace::shadows, "F2", "", "the same view of the next light; after F5 the next light's errors"},
     {KeyPlace::shadows, "F4", "", "freeze the maps' fits while the camera goes on"},
+    {KeyPlace::shadows, "F6", "", "smooth edges and samples of a still picture: off and on"},
     {KeyPlace::shadows, "P", "start", "pause"},
     {KeyPlace::shadows, "W A S D", "left stick", "walk"},
     {KeyPlace::shadows, "Shift", "right trigger, bumpers", "walk faster"},

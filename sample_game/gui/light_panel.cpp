@@ -247,6 +247,11 @@ void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 si
         ImGui::SameLine();
         ImGui::Text("frame %.2f ms, of it shadows %.2f ms on the CPU", report.cpu_us * 1e-3,
                     report.shadow_cpu_us * 1e-3);
+        ImGui::Checkbox("smooth picture (F6)", &state.smooth_picture);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("samples are added up while nothing moves; until then edges are smoothed");
+        ImGui::SameLine();
+        ImGui::Text("samples per pixel: %u", report.samples);
         draw_debug_choice(world, report, state);
         draw_frozen_choice(frozen, state);
         draw_report(report);

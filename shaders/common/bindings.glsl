@@ -63,6 +63,7 @@ const int kMeteredPictureUnit = 1;
 const int kPictureUnit = 0;
 const int kLuminanceUnit = 1;
 const int kPictureDepthUnit = 2;
+const int kFinishedPictureUnit = 0;   // passes over the picture as a display shows it
 
 // Texture units of another renderer's picture.
 const int kImportedDepthUnit = 0;

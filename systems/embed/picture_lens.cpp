@@ -63,7 +63,29 @@ std::optional<lighting::PictureLens> lens_of(const glm::dmat4& clip_from_view, C
     return lens;
 }
 
-bool put_view(const glm::dmat4& world_from_view, glm::uvec2 size_px, lighting::PictureLens& lens,
+void update_reach(const lighting::PictureLens& lens, glm::uvec2 size_px, PictureReach& held) {
+    constexpr double kMostJitter_px = 2.0, kMostSpare_px = 4.0;
+    const glm::dvec2 pixel = 2.0 / glm::dvec2(size_px), off = glm::abs(lens.shift);
+    const glm::dvec2 moved = glm::abs(lens.shift - held.shift);
+    const auto all = [](bool x, bool y) { return x && y; };
+    const bool same = size_px == held.size_px && lens.half == held.half;
+    const bool within = all(off.x <= held.reach.x, off.y <= held.reach.y);
+    const bool tight =
+        all(held.reach.x <= off.x + kMostSpare_px * pixel.x, held.reach.y <= off.y + kMostSpare_px * pixel.y);
+    const bool starts = off != glm::dvec2(0.0) && all(off.x < pixel.x, off.y < pixel.y);
+    const bool moves = same && moved != glm::dvec2(0.0) &&
+                       all(moved.x <= kMostJitter_px * pixel.x, moved.y <= kMostJitter_px * pixel.y);
+    const bool jitters = starts || moves;
+    if (!(same && within && tight) || (jitters && !held.jitters)) {
+        held.reach = jitters ? off + pixel : off;
+        held.jitters = jitters;
+    }
+    held.size_px = size_px;
+    held.half = lens.half;
+    held.shift = lens.shift;
+}
+
+bool put_view(const glm::dmat4& world_from_view, const PictureReach& reach, lighting::PictureLens& lens,
               ConsumerItem& consumer) {
     if (!math::is_finite(world_from_view)) return false;
     const glm::dmat3 basis(world_from_view);
@@ -78,8 +100,8 @@ bool put_view(const glm::dmat4& world_from_view, glm::uvec2 size_px, lighting::P
         lens.far_m -= lens.near_m;
         lens.near_m = 0.0;
     }
-    const glm::dvec2 half = lens.half * (1.0 + glm::abs(lens.shift));
-    consumer.viewport_px = glm::uvec2(glm::ceil(glm::dvec2(size_px) * (1.0 + glm::abs(lens.shift))));
+    const glm::dvec2 half = lens.half * (1.0 + reach.reach);
+    consumer.viewport_px = glm::uvec2(glm::ceil(glm::dvec2(reach.size_px) * (1.0 + reach.reach)));
     const double aspect = static_cast<double>(consumer.viewport_px.x) / static_cast<double>(consumer.viewport_px.y);
     const double half_y = std::max(half.y, half.x / aspect);
     consumer.projection = lens.orthographic ? CameraProjection::orthographic : CameraProjection::perspective;

@@ -118,7 +118,8 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     std::optional<lighting::PictureLens> lens = embed::lens_of(view.clip_from_view, view.clip_depth);
     ConsumerItem consumer;
     consumer.entity = entity_of(index);
-    if (!lens || !embed::put_view(view.world_from_view, view.size_px, *lens, consumer)) {
+    if (lens) embed::update_reach(*lens, view.size_px, state.reach);
+    if (!lens || !embed::put_view(view.world_from_view, state.reach, *lens, consumer)) {
         state.failure = "view.projection";
         return;
     }

@@ -6,6 +6,7 @@
 
 #include "engine/gl/device_gl45.h"
 #include "gnomon/shadows.h"
+#include "systems/embed/picture_lens.h"
 #include "systems/lighting/mask_pass.h"
 #include "systems/lookup/lookup_table.h"
 
@@ -23,6 +24,7 @@ struct ViewState {
     ViewState(gl::Device& device, lighting::LightPrograms& programs) : mask(device, programs) {}
     lighting::MaskPass mask;
     Imported depth, normals;
+    PictureReach reach;
     lighting::DepthPicture picture;
     std::unique_ptr<lookup::LookupTable> table;  // null: ShadowsOptions::lookup is empty
     std::vector<std::uint32_t> layers;           // index of a light per layer

@@ -1,5 +1,6 @@
 #include "systems/extract/volumes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
@@ -7,7 +8,7 @@ namespace {
 
 math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m) {
     const double half_y =
-        c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+        (c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad)) * growth(c);
     const double half_x = half_y * aspect(c);
     return c.projection == CameraProjection::orthographic
                ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m)
@@ -18,6 +19,10 @@ math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, dou
 
 double aspect(const ConsumerItem& consumer) {
     return static_cast<double>(consumer.viewport_px.x) / static_cast<double>(consumer.viewport_px.y);
+}
+
+double growth(const ConsumerItem& c) {
+    return 1.0 + 2.0 * c.margin_px / static_cast<double>(std::min(c.viewport_px.x, c.viewport_px.y));
 }
 
 math::Frustum consumer_frustum(const ConsumerItem& c) { return frustum_from(c.position_ws_m, c, c.near_m, c.far_m); }

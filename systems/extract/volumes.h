@@ -7,6 +7,9 @@ namespace gnomon {
 /// Computes width over height of the consumer's picture.
 double aspect(const ConsumerItem& consumer);
 
+/// Computes the factor by which the consumer's view is larger than its picture: at least margin_px on every side.
+double growth(const ConsumerItem& consumer);
+
 /// Computes the consumer's view volume in world space, optionally with another near or far plane.
 math::Frustum consumer_frustum(const ConsumerItem& consumer);
 math::Frustum consumer_frustum(const ConsumerItem& consumer, double near_m);

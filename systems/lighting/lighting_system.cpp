@@ -11,6 +11,7 @@
 #include "systems/extract/instance_order.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_timers.h"
+#include "systems/lighting/jittered_camera.h"
 
 namespace gnomon::lighting {
 namespace {
@@ -156,7 +157,7 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
     if (gpu.any_unlit()) exposure.without_surfaces = range.per_radiance / range.per_unlit;
     if (settings.exposure_ev) exposure.scale = exposure_scale(*settings.exposure_ev);
     uniform_scratch_.clear();
-    put_record(uniform_scratch_, 0, inputs.camera);
+    put_record(uniform_scratch_, 0, camera_);
     put_record(uniform_scratch_, ambient_offset_, ambient);
     put_record(uniform_scratch_, exposure_offset_, exposure);
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
@@ -313,6 +314,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
     passes_.clear();
+    camera_ = jittered(inputs.camera, settings.jitter_px);
     programs_.next_frame(settings.most_rows);
     programs_.set_some_unlit(gpu.any_unlit());
     programs_.set_coloured(static_cast<bool>(gpu.colours()));

@@ -41,6 +41,7 @@ struct LightingSettings {
     bool measure_exposure = false;                      // read the picture's exposure back, for most_exposure()
     bool sample_depths = false;  // count the picture's pixels by view distance, for collect_depths()
     std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // limit of KeptVisibility, over all pictures
+    glm::dvec2 jitter_px{0.0};  // from a pixel's middle to the place that it shows, each within 0.5
 };
 
 /// Deferred lighting: surfaces, a pass per light, blended surfaces, exposure. A light's pass is limited to its screen
@@ -123,7 +124,7 @@ private:
     void plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                      const LightingSettings& settings);
     void plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces, LightPass& pass);
-    std::uint64_t surfaces_signature(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) const;
+    std::uint64_t surfaces_signature(const SceneSnapshot& scene) const;
     void bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const;
     void record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list);
     void note_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
@@ -167,7 +168,8 @@ private:
     std::vector<LightPass> passes_;               // last record(): one per light of its inputs
     std::vector<LightProgram> blended_programs_;  // last record(): one per light, for blended surfaces; may be empty
     GrowingBuffer items_, uniforms_;
-    bool has_places_ = false;  // the last record() wrote exact positions of surfaces
+    shadow::CameraRecord camera_;  // last record(): that of its inputs, jittered
+    bool has_places_ = false;      // the last record() wrote exact positions of surfaces
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
     std::uint32_t light_stride_ = 0, kept_stride_ = 0, lights_offset_ = 0, kept_offset_ = 0, ambient_offset_ = 0,
                   exposure_offset_ = 0;

@@ -8,10 +8,9 @@
 namespace gnomon::lighting {
 
 /// Hashes all that surfaces show to lights: camera, drawn instances with place and pose, shadow layers.
-std::uint64_t LightingSystem::surfaces_signature(const shadow::LightingInputs& inputs,
-                                                 const SceneSnapshot& scene) const {
+std::uint64_t LightingSystem::surfaces_signature(const SceneSnapshot& scene) const {
     Signature s;
-    s.add(std::as_bytes(std::span(&inputs.camera, 1)));
+    s.add(std::as_bytes(std::span(&camera_, 1)));
     s.add(std::uint64_t{has_places_});
     for (const std::uint32_t i : visible_) {
         const InstanceItem& item = scene.instances[i];
@@ -29,7 +28,7 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
                                  const LightingSettings& settings) {
     const auto may_keep = [](const shadow::LightingLight& light) { return light.lookup_signature != 0; };
     const bool any = std::any_of(inputs.lights.begin(), inputs.lights.end(), may_keep);
-    const std::uint64_t surfaces = any ? surfaces_signature(inputs, scene) : 0;
+    const std::uint64_t surfaces = any ? surfaces_signature(scene) : 0;
     kept_.begin(scene.consumers[inputs.consumer].entity, settings.most_kept_bytes);
     passes_.resize(inputs.lights.size());
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {

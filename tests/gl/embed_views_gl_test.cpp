@@ -125,6 +125,61 @@ TEST_F(EmbedTest, EachSampleOfAMultisampledPictureHasALayer) {
     }
 }
 
+/// A camera's jitter, as an engine's temporal antialiasing has it: fits leave it out, lookups follow it.
+TEST_F(EmbedScene, AJitteredCameraDrawsNoMapAndShimmersNowhere) {
+    add_room();
+    add_shadowed(LightKind::directional, {1.5, 3.0, 1.0});
+    add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});
+    add_shadowed(LightKind::point, {-1.0, 2.5, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    constexpr std::size_t kPhases = 8, kLights = 3;
+    const glm::dmat4 straight = engine->projection();
+    const double top = kNear_m * std::tan(0.5 * kFov_rad), right = top * kWidth_px / kHeight_px;
+    const glm::dmat4 aside = glm::frustumRH_NO(-0.6 * right, 1.4 * right, -1.2 * top, 0.8 * top, kNear_m, 100.0);
+    // Halton's sequence in bases 2 and 3. Its first place lies in the middle along x.
+    const auto radical = [](std::size_t i, std::size_t base) {
+        double sum = 0.0, share = 1.0;
+        for (; i > 0; i /= base) sum += static_cast<double>(i % base) * (share /= static_cast<double>(base));
+        return sum - 0.5;
+    };
+    for (const glm::dmat4& projection : {straight, aside}) {
+        std::vector<std::vector<std::uint8_t>> seen[kLights];
+        std::size_t maps = 0;
+        for (std::size_t i = 0; i < 4 * kPhases; ++i) {
+            glm::dmat4 jittered = projection;
+            jittered[2][0] += 2.0 * radical(i % kPhases + 1, 2) / kWidth_px;
+            jittered[2][1] += 2.0 * radical(i % kPhases + 1, 3) / kHeight_px;
+            engine->own_projection = jittered;
+            draw_depths(view, *engine);
+            const Mask mask = shadows->render(view);
+            if (i < 2 * kPhases) continue;  // fits settle
+            maps += shadows->status().maps_drawn;
+            EXPECT_TRUE(shadows->status().still) << i;
+            for (std::uint32_t light = 0; light < kLights; ++light) seen[light].push_back(layer_of(mask, light));
+        }
+        EXPECT_EQ(maps, 0u);
+        for (const auto& phases : seen) {
+            std::size_t inner = 0, shimmers = 0, edges = 0;
+            for (int y = 1; y + 1 < kHeight_px; ++y)
+                for (int x = 1; x + 1 < kWidth_px; ++x) {
+                    const auto at = [&](std::size_t phase, int dx, int dy) {
+                        return phases[phase][static_cast<std::size_t>((y + dy) * kWidth_px + x + dx)];
+                    };
+                    bool even = true, same = true;
+                    for (int dy = -1; dy <= 1; ++dy)
+                        for (int dx = -1; dx <= 1; ++dx) even = even && at(0, dx, dy) == at(0, 0, 0);
+                    for (std::size_t phase = 1; phase < phases.size(); ++phase) same = same && at(phase, 0, 0) == at(0, 0, 0);
+                    inner += even;
+                    shimmers += even && !same;
+                    edges += !even && !same;
+                }
+            EXPECT_GT(inner, 50000u);
+            EXPECT_EQ(shimmers, 0u);
+            EXPECT_GT(edges, 100u) << "the picture does not jitter";
+        }
+    }
+}
+
 TEST_F(EmbedScene, ViewsAtOnceShowWhatEachShowsAlone) {
     others.push_back(std::make_unique<Engine>(Depths::reversed));
     add_lit_room();

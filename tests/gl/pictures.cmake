@@ -2,7 +2,9 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_pictures LABEL gl SOURCES
     parallel_light_gl_test.cpp
+    picture_samples_gl_test.cpp
     picture_scale_gl_test.cpp
+    smoothed_edges_gl_test.cpp
     unlit_gl_test.cpp
     LIBRARIES gnomon_sample)
 endif()

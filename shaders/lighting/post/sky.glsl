@@ -4,7 +4,7 @@
 #include "lighting/lights/ambient.glsl"
 
 vec3 view_direction(ivec2 pixel) {
-    vec2 ndc = (vec2(pixel) + 0.5) / camera.unproject.zw * 2.0 - 1.0;
+    vec2 ndc = (vec2(pixel) + 0.5) / camera.unproject.zw * 2.0 - 1.0 + camera.lens.xy;
     bool orthographic = camera.back.w > 0.5;
     vec3 lateral = camera.right.xyz * (ndc.x * camera.right.w) + camera.up.xyz * (ndc.y * camera.up.w);
     return orthographic ? -camera.back.xyz : normalize(lateral - camera.back.xyz);

@@ -57,6 +57,7 @@ struct LookupAccuracy {
     ShadowFilter filter = ShadowFilter::automatic;  // automatic: there is nothing to look up
     double predicted_error_px = 0.0;                // largest over its views, pixels; 0: none shows an edge
     bool keeps_max_error = false;                   // it meets LightShadow::max_error_px
+    bool operator==(const LookupAccuracy&) const = default;
 };
 
 /// Fallback while the light's own program is unavailable: one tap of the depth map, which every filter has.
@@ -100,6 +101,7 @@ struct LookupFailure {
     bool unshadowed = false;    // it is drawn without its shadow, or not at all; else by one tap of its map
     bool blended_only = false;  // on blended surfaces; on all others its shadow is what it should be
     LookupAccuracy fallback;    // accuracy of that one tap
+    bool operator==(const LookupFailure&) const = default;
 };
 
 /// A light with cached visibility in a picture.

@@ -102,7 +102,9 @@ TEST(PictureLens, TheConsumerSeesAllOfThePicture) {
         ConsumerItem consumer;
         const glm::dmat4 world_from_view = glm::inverse(glm::lookAt(glm::dvec3(3.0, 2.0, 1.0), glm::dvec3(0.0), glm::dvec3(0.0, 1.0, 0.0)));
         const glm::uvec2 size_px(640, 480);
-        ASSERT_TRUE(put_view(world_from_view, size_px, *lens, consumer));
+        PictureReach reach;
+        update_reach(*lens, size_px, reach);
+        ASSERT_TRUE(put_view(world_from_view, reach, *lens, consumer));
         const math::Frustum frustum = consumer_frustum(consumer);
         const double farthest_m = std::isinf(lens->far_m) ? 100.0 : lens->far_m;
         for (const double x : {-1.0, 1.0})
@@ -118,13 +120,64 @@ TEST(PictureLens, TheConsumerSeesAllOfThePicture) {
     }
 }
 
+/// A projection whose axis leaves the picture's middle by so many pixels.
+lighting::PictureLens off_by(const glm::dvec2& shift_px, glm::uvec2 size_px, double half = 0.5) {
+    lighting::PictureLens lens;
+    lens.half = {half, half};
+    lens.shift = 2.0 * shift_px / glm::dvec2(size_px);
+    return lens;
+}
+
+TEST(PictureReach, IsTheShiftWithoutJitter) {
+    const glm::uvec2 size_px(640, 480);
+    PictureReach reach;
+    for (const glm::dvec2& shift_px : {glm::dvec2(0.0), glm::dvec2(100.0, -30.5), glm::dvec2(0.0)})
+        for (int i = 0; i < 3; ++i) {
+            const lighting::PictureLens lens = off_by(shift_px, size_px);
+            update_reach(lens, size_px, reach);
+            EXPECT_EQ(reach.reach, glm::abs(lens.shift)) << shift_px.x;
+        }
+}
+
+TEST(PictureReach, StaysUnderJitterAndHoldsThePicture) {
+    std::mt19937_64 dice(print_seed());
+    std::uniform_real_distribution<double> inside(-0.5, 0.5);
+    const glm::uvec2 size_px(640, 480);
+    for (const glm::dvec2& middle_px : {glm::dvec2(0.0), glm::dvec2(37.3, -120.0)}) {
+        PictureReach reach;
+        glm::dvec2 settled(0.0);
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec2 at_px(i % 8 == 0 ? 0.0 : inside(dice), inside(dice));
+            const lighting::PictureLens lens = off_by(middle_px + at_px, size_px);
+            update_reach(lens, size_px, reach);
+            EXPECT_GE(reach.reach.x, std::abs(lens.shift.x));
+            EXPECT_GE(reach.reach.y, std::abs(lens.shift.y));
+            EXPECT_LT(reach.reach.x - std::abs(lens.shift.x), 5.0 * 2.0 / size_px.x) << "it spares work";
+            if (i == 8) settled = reach.reach;
+            if (i > 8) EXPECT_EQ(reach.reach, settled) << i;
+        }
+    }
+}
+
+TEST(PictureReach, FollowsOtherPictures) {
+    PictureReach reach;
+    update_reach(off_by({0.3, 0.2}, {640, 480}), {640, 480}, reach);
+    for (const auto& [lens, size_px] : {std::pair(off_by({90.0, 0.0}, {640, 480}), glm::uvec2(640, 480)),
+                                        std::pair(off_by({90.0, 0.0}, {320, 240}), glm::uvec2(320, 240)),
+                                        std::pair(off_by({45.0, 0.0}, {320, 240}, 0.4), glm::uvec2(320, 240))}) {
+        update_reach(lens, size_px, reach);
+        EXPECT_EQ(reach.reach, glm::abs(lens.shift));
+    }
+}
+
 TEST(PictureLens, RefusesACameraThatScales) {
     auto lens = lens_of(glm::perspectiveRH_NO(0.9, 1.25, 0.1, 100.0), ClipDepth::minus_one_to_one);
     ConsumerItem consumer;
-    EXPECT_TRUE(put_view(glm::dmat4(1.0), {64, 64}, *lens, consumer));
-    EXPECT_FALSE(put_view(glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)), {64, 64}, *lens, consumer));
-    EXPECT_FALSE(put_view(glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0)), {64, 64}, *lens, consumer));
-    EXPECT_FALSE(put_view(glm::dmat4(std::numeric_limits<double>::quiet_NaN()), {64, 64}, *lens, consumer));
+    const PictureReach reach{.size_px = {64, 64}};
+    EXPECT_TRUE(put_view(glm::dmat4(1.0), reach, *lens, consumer));
+    EXPECT_FALSE(put_view(glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)), reach, *lens, consumer));
+    EXPECT_FALSE(put_view(glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0)), reach, *lens, consumer));
+    EXPECT_FALSE(put_view(glm::dmat4(std::numeric_limits<double>::quiet_NaN()), reach, *lens, consumer));
 }
 
 }  // namespace

@@ -62,6 +62,23 @@ TEST(CommandLine, TheTruthIsAPictureAndItsLightGoesWithItAlone) {
     EXPECT_FALSE(parse({"--truth", ""}));
 }
 
+TEST(CommandLine, AWindowSmoothsItsPictureAndCountedFramesDoNot) {
+    const CommandLine window = parse({}).value(), counted = parse({"--frames", "2"}).value(),
+                      headless = parse({"--headless"}).value();
+    EXPECT_EQ(still_samples(window), 64u);
+    EXPECT_TRUE(smooths_edges(window));
+    for (const CommandLine& line : {counted, headless}) {
+        EXPECT_EQ(still_samples(line), 1u);
+        EXPECT_FALSE(smooths_edges(line));
+    }
+    EXPECT_EQ(still_samples(parse({"--headless", "--samples", "1024"}).value()), 1024u);
+    EXPECT_EQ(still_samples(parse({"--samples", "1"}).value()), 1u);
+    EXPECT_TRUE(smooths_edges(parse({"--headless", "--smooth", "on"}).value()));
+    EXPECT_FALSE(smooths_edges(parse({"--smooth=off"}).value()));
+    for (const char* bad : {"0", "1025", "-1", "1.5", ""}) EXPECT_FALSE(parse({"--samples", bad})) << bad;
+    for (const char* bad : {"", "yes", "ON"}) EXPECT_FALSE(parse({"--smooth", bad})) << bad;
+}
+
 TEST(CommandLine, APresetIsOneOfThreeWords) {
     EXPECT_EQ(parse({}).value().preset, nullptr);
     for (const char* name : {"fast", "default", "high"})

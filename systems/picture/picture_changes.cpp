@@ -1,0 +1,36 @@
+#include "systems/picture/picture_changes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gnomon::picture {
+namespace {
+
+/// Stores `now`. Returns whether it was the same.
+template <class T>
+bool keep(T& last, const T& now) {
+    if (last == now) return true;
+    last = now;
+    return false;
+}
+
+bool is_stale(const shadow::UpdatePlan& plan) { return plan.hold != shadow::Hold::none; }
+
+}  // namespace
+
+bool PictureChanges::unchanged(const SceneSnapshot& scene, const shadow::ShadowFrame& shadows,
+                               const FrameSettings& settings) {
+    now_.clear();
+    for (const shadow::LightStatus& status : shadows.statuses) now_.push_back({status.skipped(), status.degraded()});
+    const Settings wanted{settings.exposure_ev, settings.shadows, settings.rays, settings.leave_out_dim_lights,
+                          settings.shadow_budget};
+    bool same = keep(version_, scene.version) && scene.version != 0;
+    same &= keep(consumers_, scene.consumers);
+    same &= keep(pictures_, scene.pictures);
+    same &= keep(settings_, wanted);
+    same &= outcomes_ == now_;
+    std::swap(outcomes_, now_);
+    return same && !settings.debug.view && std::none_of(shadows.updates.begin(), shadows.updates.end(), is_stale);
+}
+
+}  // namespace gnomon::picture
