@@ -120,7 +120,7 @@ TEST(PictureLens, TheConsumerSeesAllOfThePicture) {
     }
 }
 
-/// A projection whose axis leaves the picture's middle by so many pixels.
+/// Returns a lens with its axis off the picture's middle by `shift_px`.
 lighting::PictureLens off_by(const glm::dvec2& shift_px, glm::uvec2 size_px, double half = 0.5) {
     lighting::PictureLens lens;
     lens.half = {half, half};
@@ -154,7 +154,9 @@ TEST(PictureReach, StaysUnderJitterAndHoldsThePicture) {
             EXPECT_GE(reach.reach.y, std::abs(lens.shift.y));
             EXPECT_LT(reach.reach.x - std::abs(lens.shift.x), 5.0 * 2.0 / size_px.x) << "it spares work";
             if (i == 8) settled = reach.reach;
-            if (i > 8) EXPECT_EQ(reach.reach, settled) << i;
+            if (i > 8) {
+                EXPECT_EQ(reach.reach, settled) << i;
+            }
         }
     }
 }
