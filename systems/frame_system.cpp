@@ -19,9 +19,6 @@ namespace {
 /// Samples from which on a picture's mean needs no smoothing.
 constexpr std::uint32_t kSmoothSamples = 8;
 
-/// Pixels beyond the picture's edges that its samples may see.
-constexpr double kJitterMargin_px = 1.0;
-
 }  // namespace
 
 Result<std::unique_ptr<FrameSystem>> FrameSystem::create(gl::Device& device, const assets::MeshLibrary& library,
@@ -59,8 +56,6 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
     const TransformReport& transforms = transforms_.update(world);
     gpu_scene_.update_meshes(commands_);
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_, gpu_scene_.lacking_meshes());
-    for (ConsumerItem& camera : snapshot_.consumers)
-        camera.margin_px = settings.still_samples > 1 ? kJitterMargin_px : 0.0;
     report_.dropped = snapshot_.dropped;
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(feedback_.sampled_depths);

@@ -34,8 +34,6 @@ struct ConsumerItem {
     /// May be infinite for perspective; orthographic depths are spread over the whole range (flat_range.h).
     double far_m = 1.0e9;
     glm::uvec2 viewport_px{1280, 720};
-    /// How far samples of a jittered picture reach beyond its edges. What is seen there gets shadows too.
-    double margin_px = 0.0;
     bool operator==(const ConsumerItem&) const = default;
 };
 

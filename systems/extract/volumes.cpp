@@ -6,9 +6,10 @@
 namespace gnomon {
 namespace {
 
-math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m) {
+math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m,
+                           double growth = 1.0) {
     const double half_y =
-        (c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad)) * growth(c);
+        (c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad)) * growth;
     const double half_x = half_y * aspect(c);
     return c.projection == CameraProjection::orthographic
                ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m)
@@ -21,10 +22,6 @@ double aspect(const ConsumerItem& consumer) {
     return static_cast<double>(consumer.viewport_px.x) / static_cast<double>(consumer.viewport_px.y);
 }
 
-double growth(const ConsumerItem& c) {
-    return 1.0 + 2.0 * c.margin_px / static_cast<double>(std::min(c.viewport_px.x, c.viewport_px.y));
-}
-
 math::Frustum consumer_frustum(const ConsumerItem& c) { return frustum_from(c.position_ws_m, c, c.near_m, c.far_m); }
 
 math::Frustum consumer_frustum(const ConsumerItem& c, double near_m) {
@@ -33,6 +30,11 @@ math::Frustum consumer_frustum(const ConsumerItem& c, double near_m) {
 
 math::Frustum consumer_frustum(const ConsumerItem& c, double near_m, double far_m) {
     return frustum_from(c.position_ws_m, c, near_m, far_m);
+}
+
+math::Frustum consumer_frustum_around(const ConsumerItem& c, double margin_px) {
+    const double growth = 1.0 + 2.0 * margin_px / static_cast<double>(std::min(c.viewport_px.x, c.viewport_px.y));
+    return frustum_from(c.position_ws_m, c, c.near_m, c.far_m, growth);
 }
 
 math::Frustum consumer_frustum_at_origin(const ConsumerItem& c) {

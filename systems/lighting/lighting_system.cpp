@@ -108,13 +108,14 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
     }
 }
 
-void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu) {
+void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu,
+                                   bool jitters) {
     visible_.clear();
     draw_items_.clear();
     draws_.clear();
     blended_.clear();
     farthest_m_.resize(scene.instances.size());
-    const math::Frustum frustum = consumer_frustum(consumer);
+    const math::Frustum frustum = consumer_frustum_around(consumer, jitters ? 1.0 : 0.0);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
         if (!item.visible || item.gpu_slot >= gpu.capacity() || !math::may_overlap(frustum, item.bounds_ws)) continue;
@@ -312,7 +313,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
                             const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome) {
     GNOMON_ZONE("lighting");
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
-    collect_draws(scene.consumers[inputs.consumer], scene, gpu);
+    collect_draws(scene.consumers[inputs.consumer], scene, gpu, settings.jitter_px != glm::dvec2(0.0));
     passes_.clear();
     camera_ = jittered(inputs.camera, settings.jitter_px);
     programs_.next_frame(settings.most_rows);

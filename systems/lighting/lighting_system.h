@@ -131,7 +131,8 @@ private:
                    shadow::LightingOutcome& outcome);
     LightProgram light_program(const shadow::LightingLight& light, ShaderPass output);
     gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
-    void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
+    /// Collects what the camera sees; `jitters`: within a pixel beyond the picture's edges as well.
+    void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu, bool jitters);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
                       const ConsumerItem& consumer);
     void upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,

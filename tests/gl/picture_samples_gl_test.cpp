@@ -120,7 +120,6 @@ TEST_F(PictureSamples, MoveNoShadowAndDrawNoMap) {
     settings.still_samples = 1;
     for (int i = 0; i < 100; ++i) draw();
     settings.still_samples = kPhases;
-    draw();                                                // with fits for all places of samples
     std::vector<std::vector<std::vector<float>>> seen(3);  // by light and phase
     std::size_t maps = 0;
     for (std::uint32_t phase = 0; phase < kPhases; ++phase) {
