@@ -1,15 +1,13 @@
 #include "systems/extract/volumes.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
 namespace {
 
-math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m,
-                           double growth = 1.0) {
+math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m) {
     const double half_y =
-        (c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad)) * growth;
+        c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
     const double half_x = half_y * aspect(c);
     return c.projection == CameraProjection::orthographic
                ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m)
@@ -30,11 +28,6 @@ math::Frustum consumer_frustum(const ConsumerItem& c, double near_m) {
 
 math::Frustum consumer_frustum(const ConsumerItem& c, double near_m, double far_m) {
     return frustum_from(c.position_ws_m, c, near_m, far_m);
-}
-
-math::Frustum consumer_frustum_around(const ConsumerItem& c, double margin_px) {
-    const double growth = 1.0 + 2.0 * margin_px / static_cast<double>(std::min(c.viewport_px.x, c.viewport_px.y));
-    return frustum_from(c.position_ws_m, c, c.near_m, c.far_m, growth);
 }
 
 math::Frustum consumer_frustum_at_origin(const ConsumerItem& c) {

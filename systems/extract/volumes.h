@@ -12,9 +12,6 @@ math::Frustum consumer_frustum(const ConsumerItem& consumer);
 math::Frustum consumer_frustum(const ConsumerItem& consumer, double near_m);
 math::Frustum consumer_frustum(const ConsumerItem& consumer, double near_m, double far_m);
 
-/// Computes its view volume with at least `margin_px` beyond each edge of the picture.
-math::Frustum consumer_frustum_around(const ConsumerItem& consumer, double margin_px);
-
 /// Computes its view volume with the camera at the world's origin, free of rounding by a distant position.
 math::Frustum consumer_frustum_at_origin(const ConsumerItem& consumer);
 

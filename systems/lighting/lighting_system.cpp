@@ -115,7 +115,7 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     draws_.clear();
     blended_.clear();
     farthest_m_.resize(scene.instances.size());
-    const math::Frustum frustum = consumer_frustum_around(consumer, jitters ? 1.0 : 0.0);
+    const math::Frustum frustum = jitters ? jittered_frustum(consumer) : consumer_frustum(consumer);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
         if (!item.visible || item.gpu_slot >= gpu.capacity() || !math::may_overlap(frustum, item.bounds_ws)) continue;
