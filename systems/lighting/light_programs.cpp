@@ -128,8 +128,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-                              (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") +
-                              (found_before ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
+                              (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") + (found_before ? "as found" : "") +
+                              (found.some_unlit ? " some unlit" : "");
     if (output == ShaderPass::blended)
         make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended_light.frag", defines, &row);
     else if (output == ShaderPass::verdicts)

@@ -188,8 +188,8 @@ void MaskPass::import(const DepthPicture& picture, std::uint32_t sample, gl::Com
     list.add(gl::EndGroup{});
 }
 
-/// Records a layer's light over the surfaces that were imported last. If some pixels are slow there are two draws. The
-/// first removes the depth of finished pixels, so that only the others pass the second one's depth test.
+/// Records a layer's light over the surfaces that were imported last. If some pixels are slow there are two draws. The first
+/// removes the depth of finished pixels, so that only the others pass the second one's depth test.
 void MaskPass::record_light(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample,
                             const LightProgram& program, const gl::Rect& area, gl::CommandList& list) const {
     const std::uint32_t light = in.layers[layer];

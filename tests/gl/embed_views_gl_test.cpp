@@ -172,7 +172,7 @@ TEST_F(EmbedScene, AJitteredCameraDrawsNoMapAndShimmersNowhere) {
             EXPECT_GT(pixels.inner, 50000u);
             EXPECT_EQ(pixels.shimmers, 0u);
             EXPECT_GT(pixels.edges, 100u) << "the picture does not jitter";
-            EXPECT_LT(pixels.slivers, 40u);
+            EXPECT_LT(pixels.slivers, pixels.edges / 4) << "few things are thinner than a pixel";
         }
     }
 }

@@ -7,7 +7,7 @@ namespace gnomon {
 /// How the pixels of a picture change while its camera jitters by less than a pixel.
 struct JitteredPixels {
     std::size_t inner = 0;     // amid nine alike in every phase: no edge crosses them
-    std::size_t shimmers = 0;  // of those: other in one phase than in another
+    std::size_t shimmers = 0;  // inner pixels with another value in another phase
     std::size_t edges = 0;     // not amid nine alike, and changing
     std::size_t slivers = 0;   // amid nine alike at first, and changing: crossed by what is thinner than a pixel
 };
