@@ -14,7 +14,7 @@ namespace gnomon::bench {
 struct JudgedPicture {
     std::string light;
     oracle::Metrics metrics;
-    std::optional<oracle::AreaMetrics> area;  // empty: not asked
+    std::optional<oracle::AreaMetrics> area;  // empty: not wanted
 };
 struct JudgedFolder {
     std::string folder;
@@ -27,7 +27,7 @@ struct JudgedPictures {
 };
 
 struct JudgePicturesOptions {
-    std::vector<std::string> folders;  // of <light>.pfm, as the game's --visibility writes them
+    std::vector<std::string> folders;  // with <light>.pfm, as the game's --visibility writes them
     std::uint32_t area_side = 0;   // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
     bool pictures = false;         // writes <light>.png beside each file: visibility in grey, wrong pixels in red
 };
