@@ -6,6 +6,13 @@
 /// Program that looks a light up, and what it reads.
 namespace gnomon::lighting {
 
+/// Programs of EdgePass that follow its first two draws; {0}: the light is not drawn by it.
+struct EdgePrograms {
+    gl::ProgramHandle marks{}, areas{};
+    gl::ProgramHandle reads{};  // draws the shares that it has found
+    explicit operator bool() const { return marks && areas && reads; }
+};
+
 /// Program of a light, and its inputs.
 struct LightProgram {
     gl::ProgramHandle program{};
@@ -16,6 +23,7 @@ struct LightProgram {
     gl::BufferHandle ends{};                               // for area lights on such maps
     gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` traces the rays itself
     gl::ProgramHandle decided_program{};  // draws all but slow pixels, which remain for `program`; {0}: none
+    EdgePrograms edges{};                 // with these, the two draw middles
     Reason lacks = Reason::none;          // reason why it is not the light's own row
     bool unshadowed = false;
 };

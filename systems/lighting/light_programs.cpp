@@ -29,8 +29,19 @@ const char* output_name(ShaderPass output) {
             return "decided light";
         case ShaderPass::decided_visibility:
             return "decided visibility";
+        case ShaderPass::decided_middles:
+            return "decided middles";
+        case ShaderPass::undecided_middles:
+            return "undecided middles";
+        case ShaderPass::crossed_areas:
+            return "crossed areas";
     }
     return "light";
+}
+
+/// Returns true for one of EdgePass's first draws.
+bool is_middles(ShaderPass output) {
+    return output == ShaderPass::decided_middles || output == ShaderPass::undecided_middles;
 }
 
 /// Returns true if the output adds light to the picture. Passes over blended surfaces draw only lit ones.
@@ -48,7 +59,8 @@ std::string_view visible_share_file(ShaderPass output, bool found_before) {
 /// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
 std::string_view fragment_file(ShaderPass output) {
     const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility ||
-                          output == ShaderPass::decided_visibility;
+                          output == ShaderPass::decided_visibility || output == ShaderPass::crossed_areas ||
+                          is_middles(output);
     return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";
 }
 
@@ -57,7 +69,7 @@ std::string_view fragment_file(ShaderPass output) {
 LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
     for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_,
-                           unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_})
+                           unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_})
         device_.destroy(e.program);
 }
 
@@ -122,14 +134,17 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     const bool found_before = row.filter_file.empty() && row.sheets;
     defines.push_back("VISIBLE_SHARE \"" + std::string(visible_share_file(output, found_before)) + "\"");
     if (output == ShaderPass::blended && coloured_) defines.emplace_back("COLOURED 1");
-    if (output == ShaderPass::decided || output == ShaderPass::decided_visibility)
+    if (output == ShaderPass::crossed_areas) defines.emplace_back("AREAS_ALONE 1");
+    if (is_middles(output)) defines.emplace_back("MIDDLES 1");
+    if (output == ShaderPass::decided || output == ShaderPass::decided_visibility ||
+        output == ShaderPass::decided_middles)
         defines.emplace_back("LEAVE_UNDECIDED 1");
     if (output == ShaderPass::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-                              (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") + (found_before ? "as found" : "") +
-                              (found.some_unlit ? " some unlit" : "");
+                              (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") +
+                              (found_before ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
     if (output == ShaderPass::blended)
         make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended_light.frag", defines, &row);
     else if (output == ShaderPass::verdicts)
@@ -187,6 +202,11 @@ gl::ProgramHandle LightPrograms::import_surfaces(bool multisampled) {
     const std::string define = multisampled ? "MULTISAMPLED 1" : "MULTISAMPLED 0";
     return needed(multisampled ? import_samples_ : import_surfaces_, "imported surfaces", "common/fullscreen.vert",
                   "lighting/mask/import_surfaces.frag", {&define, 1});
+}
+gl::ProgramHandle LightPrograms::mark_edges() {
+    if (is_due(mark_edges_))
+        make(mark_edges_, "marked edges", "common/fullscreen.vert", "lighting/edges/mark_edges.frag", {}, nullptr);
+    return mark_edges_.program;
 }
 gl::ProgramHandle LightPrograms::luminance() {
     return needed(luminance_, "luminance", "common/fullscreen.vert", "lighting/post/luminance.frag");

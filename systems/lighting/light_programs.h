@@ -17,6 +17,8 @@ namespace gnomon::lighting {
 /// - rays: what rays decide of the other pixels (RayList)
 /// - kept, kept_visibility: picture and visibility from cached visibility (KeptVisibility)
 /// - decided, decided_visibility: picture and visibility without pixels that take the row's filter long
+/// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of the
+///   others, and of the areas that an edge crosses
 enum class ShaderPass : std::uint8_t {
     picture,
     visibility,
@@ -27,7 +29,10 @@ enum class ShaderPass : std::uint8_t {
     kept,
     kept_visibility,
     decided,
-    decided_visibility
+    decided_visibility,
+    decided_middles,
+    undecided_middles,
+    crossed_areas
 };
 
 /// Returns the row for a light without lookup: one per kind.
@@ -70,6 +75,8 @@ public:
     gl::ProgramHandle unlit_blended();
     /// Returns the program that writes another renderer's surfaces as light passes read them.
     gl::ProgramHandle import_surfaces(bool multisampled);
+    /// Returns the program that marks pixels for EdgePass; {0} if it cannot be made.
+    gl::ProgramHandle mark_edges();
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
     gl::Failure failure() const { return failure_; }  // last program made
@@ -100,7 +107,7 @@ private:
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
-    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_;
+    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_;
     bool some_unlit_ = false;
     bool coloured_ = false;
     std::uint64_t frame_ = 0;

@@ -36,6 +36,7 @@ LightingSystem::LightingSystem(gl::Device& device)
       programs_(device),
       targets_(device),
       ray_list_(device),
+      edges_(device),
       depths_(device),
       exposure_(device),
       kept_(device),
@@ -76,6 +77,8 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     const auto lists = [](const shadow::LightingLight& light) { return light.row.sheets; };
     ray_list_.provide(std::any_of(inputs.lights.begin(), inputs.lights.end(), lists), targets_.size_px(),
                       targets_.depth);
+    const auto shares = [](const shadow::LightingLight& light) { return light.row.antialias; };
+    edges_.provide(std::any_of(inputs.lights.begin(), inputs.lights.end(), shares), targets_.size_px());
     const auto leaves = [](const shadow::LightingLight& light) { return light.row.triangles; };
     targets_.provide_undecided(std::any_of(inputs.lights.begin(), inputs.lights.end(), leaves));
     has_places_ = targets_.provide_places(wanted) && wanted && programs_.surface(true);
@@ -168,7 +171,7 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
         put_record(uniform_scratch_, offset + offsetof(shadow::LightRecord, radiance), radiance);
     }
     for (std::uint32_t i = 0; i < passes_.size(); ++i) {
-        const gl::Rect& area = passes_[i].kept.area;
+        const gl::Rect& area = passes_[i].read_area;
         const KeptRecord record{{area.x, area.y, area.width, area.height}};
         if (passes_[i].reads) put_record(uniform_scratch_, kept_offset_ + i * kept_stride_, record);
     }
@@ -347,18 +350,20 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
     LightProgram used = light_program(inputs.lights[light], ShaderPass::visibility);
     if (!used.program || used.unshadowed) return false;
     const LightPass* pass = light < passes_.size() ? &passes_[light] : nullptr;
-    const bool reads = pass && pass->reads && kept_.holds(pass->kept.texture);
-    if (reads) used = {};
-    if (reads) used.program = programs_.row(kept_row(inputs.lights[light].row), ShaderPass::kept_visibility);
-    if (!used.program) return false;
+    const bool kept = pass && pass->is_kept() && kept_.holds(pass->kept.texture);
+    if (kept) used = {};
+    if (kept) used.program = programs_.row(kept_row(inputs.lights[light].row), ShaderPass::kept_visibility);
+    const bool edges = used.edges && pass && pass->source == edges_.shares();
+    const gl::ProgramHandle reader = edges ? used.edges.reads : used.program;
+    if (!reader) return false;
     constexpr float kNoSurface = -1.0f;
     list.add(gl::BeginGroup{"visibility"});
     if (used.verdicts_program) record_rays(used, light, {}, {}, gpu, list);
+    if (edges) record_edges(used, light, viewport(), {}, gpu, list);
     list.add(gl::BeginPass{targets_.visibility_target, viewport(), false, 0.0f, true, {kNoSurface, 0.0f, 0.0f, 0.0f}});
-    list.add(
-        gl::SetPipeline{{used.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(gl::SetPipeline{{reader, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     bind_surface_textures(list);
-    if (reads)
+    if (kept || edges)
         bind_kept(*pass, light, list);
     else
         bind_light(used, light, gpu, list);

@@ -11,6 +11,7 @@
 #include "systems/growing_buffer.h"
 #include "systems/lighting/ambient.h"
 #include "systems/lighting/depth_sampler.h"
+#include "systems/lighting/edge_pass.h"
 #include "systems/lighting/exposure_meter.h"
 #include "systems/lighting/kept_visibility.h"
 #include "systems/lighting/light_lookup.h"
@@ -28,11 +29,6 @@ struct ExposureRecord {
     float top_mip = 0.0f;
     float radiance_per_one = 1.0f;  // radiance of 1 in the picture
     float without_surfaces = 1.0f;  // scale of an automatic exposure without lit surfaces
-};
-
-/// Uniform block; matches KeptBlock in shaders/lighting/lights/visibility_cache.glsl (std140).
-struct KeptRecord {
-    glm::ivec4 area{0};
 };
 
 struct LightingSettings {
@@ -118,8 +114,11 @@ private:
     struct LightPass {
         LightProgram own;
         KeptVisibility::Plan kept;
-        gl::ProgramHandle reads{};  // for kept.use: replaces `own`
+        gl::ProgramHandle reads{};  // replaces `own` for kept.use; follows it where `own` draws shares (EdgePass)
         LightProgram fills;         // runs before that, to fill
+        gl::Rect read_area{};       // what `reads` reads
+        gl::TextureHandle source{};
+        bool is_kept() const { return reads && kept.texture; }
     };
     void plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                      const LightingSettings& settings);
@@ -151,6 +150,8 @@ private:
     void bind_light(const LightProgram& program, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list) const;
     void record_look_up(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
                         std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const;
+    void record_edges(const LightProgram& light, std::uint32_t index, const gl::Rect& area, std::optional<float> depth,
+                      const GpuScene& gpu, gl::CommandList& list) const;
     void record_kept(const LightPass& pass, std::uint32_t index, const shadow::LightingLight& light,
                      gl::CommandList& list) const;
     void record_rays(const LightProgram& light, std::uint32_t index, const gl::Rect& area, std::optional<float> depth,
@@ -161,6 +162,7 @@ private:
     LightPrograms programs_;
     LightingTargets targets_;
     RayList ray_list_;
+    EdgePass edges_;
     DepthSampler depths_;
     ExposureMeter exposure_;
     KeptVisibility kept_;

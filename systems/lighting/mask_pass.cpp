@@ -134,8 +134,8 @@ gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, s
     lights_offset_ = sample_stride_ * static_cast<std::uint32_t>(samples);
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
     if (!programs_.import_surfaces(!picture.samples.empty())) return programs_.failure();
-    const bool room =
-        uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * std::max<std::size_t>(lights, 1));
+    kept_offset_ = lights_offset_ + light_stride_ * static_cast<std::uint32_t>(std::max<std::size_t>(lights, 1));
+    const bool room = uniforms_.reserve(kept_offset_ + aligned(sizeof(KeptRecord), alignment));
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
 }
 
@@ -160,6 +160,8 @@ void MaskPass::upload(const shadow::LightingInputs& inputs, const DepthPicture& 
     }
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
         put_record(bytes_, lights_offset_ + i * light_stride_, inputs.lights[i].record);
+    const KeptRecord all{{0, 0, static_cast<int>(size_px_.x), static_cast<int>(size_px_.y)}};
+    put_record(bytes_, kept_offset_, all);
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(bytes_));
 }
 
@@ -188,8 +190,8 @@ void MaskPass::import(const DepthPicture& picture, std::uint32_t sample, gl::Com
     list.add(gl::EndGroup{});
 }
 
-/// Records a layer's light over the surfaces that were imported last. If some pixels are slow there are two draws. The first
-/// removes the depth of finished pixels, so that only the others pass the second one's depth test.
+/// Records a layer's light over the surfaces that were imported last. If some pixels are slow there are two draws. The
+/// first removes the depth of finished pixels, so that only the others pass the second one's depth test.
 void MaskPass::record_light(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample,
                             const LightProgram& program, const gl::Rect& area, gl::CommandList& list) const {
     const std::uint32_t light = in.layers[layer];
@@ -197,25 +199,56 @@ void MaskPass::record_light(const MaskInputs& in, std::uint32_t layer, std::uint
     const auto draw = [&](gl::ProgramHandle used, bool takes_depth) {
         list.add(gl::SetPipeline{
             {used, gl::CullMode::none, false, gl::DepthTest::less, takes_depth, false, gl::Blend::off}});
-        bind_camera(sample, list);
-        list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, depth_, sampler_});
-        list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, normals_, sampler_});
-        list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, material_, sampler_});
-        list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
-                                  sizeof(shadow::LightRecord)});
-        bind_maps(program, list);
-        bind_triangles(program, in.gpu, list);
+        bind_inputs(in, layer, sample, program, list);
+        if (program.edges) bind_shares(list);
         list.add(gl::DrawTriangle{in.inputs.lights[light].farthest_depth});
     };
+    if (program.edges) return draw(program.edges.reads, false);
     if (program.decided_program) draw(program.decided_program, true);
     draw(program.program, false);
+}
+
+/// Binds what EdgePass has found.
+void MaskPass::bind_shares(gl::CommandList& list) const {
+    list.add(gl::BindUniforms{bindings::kKeptBlock, uniforms_.handle(), kept_offset_, sizeof(KeptRecord)});
+    list.add(gl::BindTexture{bindings::kKeptVisibilityUnit, edges_.shares(), sampler_});
+}
+
+/// Records a light's visibility into the pass of edges.
+void MaskPass::record_edges(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample,
+                            const LightProgram& program, const gl::Rect& area, gl::CommandList& list) const {
+    const auto bind = [&] { bind_inputs(in, layer, sample, program, list); };
+    edges_.record(program, {depth_, area, in.inputs.lights[in.layers[layer]].farthest_depth}, sampler_, bind, list);
+}
+
+/// Binds what a light's programs read: surfaces, its maps, or its visibility as EdgePass has found it.
+void MaskPass::bind_inputs(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample, const LightProgram& program,
+                           gl::CommandList& list) const {
+    bind_camera(sample, list);
+    list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, depth_, sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, normals_, sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, material_, sampler_});
+    list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(),
+                              lights_offset_ + in.layers[layer] * light_stride_, sizeof(shadow::LightRecord)});
+    bind_maps(program, list);
+    bind_triangles(program, in.gpu, list);
 }
 
 LightProgram MaskPass::program_of(const shadow::LightingLight& light) {
     const gl::ProgramHandle own = programs_.row(light.row, ShaderPass::visibility);
     if (own) {
         LightProgram used{own, light.map, light.triangles, light.sampler};
-        if (light.row.triangles && !undecided_targets_.empty())
+        if (light.row.antialias && edges_.is_there()) {
+            shadow::ShaderKey middles = light.row;
+            middles.antialias = false;
+            LightProgram steps = used;
+            steps.decided_program = programs_.row(middles, ShaderPass::decided_middles);
+            steps.program = programs_.row(middles, ShaderPass::undecided_middles);
+            steps.edges = {programs_.mark_edges(), programs_.row(light.row, ShaderPass::crossed_areas),
+                           programs_.row(kept_row(light.row), ShaderPass::kept_visibility)};
+            if (steps.decided_program && steps.program && steps.edges) return steps;
+        }
+        if (light.row.triangles && !light.row.antialias && !undecided_targets_.empty())
             used.decided_program = programs_.row(light.row, ShaderPass::decided_visibility);
         return used;
     }
@@ -237,7 +270,8 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
             used = program_of(light);
             if (light.reach.width > 0 && used.program) area = in_picture(light.reach, consumer, in.picture);
         }
-        const bool two = area.width > 0 && used.decided_program;
+        if (area.width > 0 && used.edges) record_edges(in, layer, sample, used, area, list);
+        const bool two = area.width > 0 && used.decided_program && !used.edges;
         if (two) list.add(gl::CopyTexture{depth_, undecided_, 0, area});
         list.add(gl::BeginPass{two ? undecided_targets_[target] : targets_[target],
                                all,
@@ -263,11 +297,17 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
     if (outcome.failure != gl::Failure::none) return false;
     if (in.layers.empty()) {
         release_layers();
+        edges_.provide(false, size_px_);
         return true;
     }
     provide_undecided(std::any_of(in.layers.begin(), in.layers.end(), [&](std::uint32_t layer) {
         return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.triangles;
     }));
+    edges_.provide(std::any_of(in.layers.begin(), in.layers.end(),
+                               [&](std::uint32_t layer) {
+                                   return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.antialias;
+                               }),
+                   size_px_);
     upload(in.inputs, in.picture, list);
     list.add(gl::BeginGroup{"shadow mask"});
     for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {

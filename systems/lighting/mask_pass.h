@@ -10,6 +10,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/lighting/depth_picture.h"
+#include "systems/lighting/edge_pass.h"
 #include "systems/lighting/light_lookup.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 
@@ -44,7 +45,7 @@ struct MaskInputs {
 class MaskPass {
 public:
     MaskPass(gl::Device& device, LightPrograms& programs)
-        : device_(device), programs_(programs), uniforms_(device, "mask uniforms") {}
+        : device_(device), programs_(programs), edges_(device), uniforms_(device, "mask uniforms") {}
     ~MaskPass() { release(); }
     MaskPass(const MaskPass&) = delete;
     MaskPass& operator=(const MaskPass&) = delete;
@@ -72,6 +73,11 @@ private:
     LightProgram program_of(const shadow::LightingLight& light);
     void record_light(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample, const LightProgram& program,
                       const gl::Rect& area, gl::CommandList& list) const;
+    void record_edges(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample, const LightProgram& program,
+                      const gl::Rect& area, gl::CommandList& list) const;
+    void bind_inputs(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample, const LightProgram& program,
+                     gl::CommandList& list) const;
+    void bind_shares(gl::CommandList& list) const;
     void record_layers(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list);
     void release_undecided();
     void release_layers();
@@ -79,6 +85,7 @@ private:
 
     gl::Device& device_;
     LightPrograms& programs_;
+    EdgePass edges_;
     GrowingBuffer uniforms_;
     gl::TextureHandle depth_{}, normals_{}, material_{}, mask_{};
     gl::TargetHandle surfaces_{};
@@ -87,7 +94,7 @@ private:
     std::vector<gl::TargetHandle> undecided_targets_;  // one per layer, with undecided_; none: each light is one draw
     glm::uvec2 size_px_{0, 0};
     gl::SamplerHandle sampler_{};
-    std::uint32_t import_offset_ = 0, sample_stride_ = 0, lights_offset_ = 0, light_stride_ = 0;
+    std::uint32_t import_offset_ = 0, sample_stride_ = 0, lights_offset_ = 0, light_stride_ = 0, kept_offset_ = 0;
     std::vector<std::byte> bytes_;
 };
 

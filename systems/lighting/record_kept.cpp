@@ -34,6 +34,10 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
         if (light.screen.width > 0) passes_[i].own = light_program(light, ShaderPass::picture);
+        if (!passes_[i].own.edges) continue;
+        passes_[i].reads = passes_[i].own.edges.reads;
+        passes_[i].read_area = viewport();
+        passes_[i].source = edges_.shares();
     }
     // Programs that only save time come last.
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
@@ -67,6 +71,8 @@ void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity e
     pass.kept = plan;
     pass.reads = reads;
     pass.fills = visibility;
+    pass.read_area = plan.area;
+    pass.source = plan.texture;
 }
 
 void LightingSystem::bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const {
@@ -74,7 +80,7 @@ void LightingSystem::bind_kept(const LightPass& pass, std::uint32_t index, gl::C
                               sizeof(shadow::LightRecord)});
     list.add(gl::BindUniforms{bindings::kKeptBlock, uniforms_.handle(), kept_offset_ + index * kept_stride_,
                               sizeof(KeptRecord)});
-    list.add(gl::BindTexture{bindings::kKeptVisibilityUnit, pass.kept.texture, point_sampler_});
+    list.add(gl::BindTexture{bindings::kKeptVisibilityUnit, pass.source, point_sampler_});
 }
 
 void LightingSystem::record_kept(const LightPass& pass, std::uint32_t index, const shadow::LightingLight& light,
@@ -95,6 +101,11 @@ void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, con
                                  gl::CommandList& list) {
     const KeptVisibility::Plan& kept = pass.kept;
     const LightProgram& fills = pass.fills;
+    if (fills.edges) {
+        record_edges(fills, index, kept.area, {}, gpu, list);
+        list.add(gl::Blit{edges_.target(), kept.target, kept.area, {0, 0, kept.area.width, kept.area.height}});
+        return;
+    }
     if (fills.verdicts_program) record_rays(fills, index, {}, {}, gpu, list);
     list.add(gl::BeginPass{kept.scratch ? kept.scratch : kept.target, viewport(), false, 0.0f, false, {}});
     list.add(gl::SetScissor{kept.area});
@@ -113,9 +124,8 @@ void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, con
 void LightingSystem::note_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
                                shadow::LightingOutcome& outcome) {
     const bool may_pay = light.has_shadow && light.tuning.reuse.keep_visibility && light.tuning.reuse.economy;
-    if (may_pay && kept_.is_told() && !pass.fills.program)
-        lookup_times_.add(index, light.entity, static_cast<bool>(pass.reads));
-    if (!pass.reads) return;
+    if (may_pay && kept_.is_told() && !pass.fills.program) lookup_times_.add(index, light.entity, pass.is_kept());
+    if (!pass.is_kept()) return;
     outcome.cached.push_back({index, pass.kept.bytes, !pass.fills.program, lookup_times_.saved_us(light.entity)});
 }
 

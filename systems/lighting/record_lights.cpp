@@ -38,17 +38,31 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
     if (has_surfaces) {
         bool waits = false;
         // Each program counts, because a frame may have time for only one.
-        const auto made = [&](ShaderPass part) {
-            const bool late = waits || (may_wait && programs_.must_wait(light.row, part));
+        const auto made_of = [&](const shadow::ShaderKey& row, ShaderPass part) {
+            const bool late = waits || (may_wait && programs_.must_wait(row, part));
             waits = late;
-            return late ? gl::ProgramHandle{} : programs_.row(light.row, part);
+            return late ? gl::ProgramHandle{} : programs_.row(row, part);
         };
-        LightProgram used{made(output), light.map,    light.triangles, light.sampler,
-                          light.rays,   light.second, light.bounds,    light.ends};
+        const auto made = [&](ShaderPass part) { return made_of(light.row, part); };
+        LightProgram used{{},         light.map,    light.triangles, light.sampler,
+                          light.rays, light.second, light.bounds,    light.ends};
+        if (light.row.antialias && output != ShaderPass::blended && edges_.is_there()) {
+            shadow::ShaderKey middles = light.row;
+            middles.antialias = false;
+            const ShaderPass reads = output == ShaderPass::picture ? ShaderPass::kept : ShaderPass::kept_visibility;
+            used.decided_program = made_of(middles, ShaderPass::decided_middles);
+            used.program = made_of(middles, ShaderPass::undecided_middles);
+            used.edges = {programs_.mark_edges(), made(ShaderPass::crossed_areas), made_of(kept_row(light.row), reads)};
+            if (used.decided_program && used.program && used.edges) return used;
+            used.decided_program = {};
+            used.edges = {};
+        }
+        used.program = made(output);
         if (lists) used.verdicts_program = made(ShaderPass::verdicts);
         if (lists) used.rays_program = made(ShaderPass::rays);
         // A program that only saves time is made when there is time.
-        const bool leaves = !waits && light.row.triangles && output == ShaderPass::picture && targets_.undecided_target;
+        const bool leaves = !waits && light.row.triangles && !light.row.antialias && output == ShaderPass::picture &&
+                            targets_.undecided_target;
         if (leaves && !programs_.must_wait(light.row, ShaderPass::decided))
             used.decided_program = programs_.row(light.row, ShaderPass::decided);
         if (used.program && (!lists || (used.verdicts_program && used.rays_program))) return used;
@@ -97,6 +111,16 @@ void LightingSystem::record_look_up(const LightProgram& light, std::uint32_t ind
     if (light.verdicts_program) ray_list_.unbind_answers(list);
 }
 
+/// Records a light's visibility into the pass of edges.
+void LightingSystem::record_edges(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
+                                  std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
+    const auto bind_inputs = [&] {
+        bind_surface_textures(list);
+        bind_light(light, index, gpu, list);
+    };
+    edges_.record(light, {targets_.depth, area, depth}, point_sampler_, bind_inputs, list);
+}
+
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                                    const GpuScene& gpu, gl::CommandList& list, shadow::LightingOutcome& outcome) {
     list.add(gl::BeginGroup{"lights"});
@@ -110,8 +134,11 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
-        if (pass.reads) {
+        if (pass.is_kept()) {
             if (pass.fills.program) record_fill(pass, i, gpu, list);
+            record_kept(pass, i, light, list);
+        } else if (pass.reads) {
+            record_edges(used, i, light.screen, light.farthest_depth, gpu, list);
             record_kept(pass, i, light, list);
         } else {
             if (used.verdicts_program) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);

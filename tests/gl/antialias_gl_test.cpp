@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tests/gl/truth_scenes.h"
@@ -35,14 +36,15 @@ protected:
 };
 
 TEST_F(Antialias, EdgesHaveTheLitShareOfEachPixel) {
-    constexpr double kMostError = 0.03;
+    constexpr double kMostError = 0.03, kMostBias = 0.005;
     const auto on = measure_areas(courtyard(kLarge_px, "antialias=on"));
     ASSERT_EQ(on.lights.size(), 3u);
-    for (const char* name : {"sun", "lantern"}) {
+    for (const char* name : {"sun", "lantern", "guard_lamp"}) {
         const bench::LightAccuracy* light = find_light(on, name);
         ASSERT_NE(light, nullptr) << name;
         EXPECT_GE(light->area->metrics.crossed, kLeastCrossed) << name;
         EXPECT_LE(light->area->metrics.mean_error, kMostError) << name;
+        EXPECT_LE(std::abs(light->area->metrics.bias), kMostBias) << name;
     }
 }
 
@@ -50,6 +52,7 @@ TEST_F(Antialias, EdgesHaveTheLitShareOfEachPixel) {
 struct Changes {
     std::size_t between = 0;           // shares that are neither 0 nor 1
     std::size_t same = 0, others = 0;  // pixels that no edge crosses: equal to those without, or not
+    std::size_t apart = 0;             // pixels without a share between that differ from those without, by any bit
 };
 
 Changes changes_of(const bench::LightAccuracy& on, const bench::LightAccuracy& off) {
@@ -58,7 +61,9 @@ Changes changes_of(const bench::LightAccuracy& on, const bench::LightAccuracy& o
     for (std::size_t pixel = 0; pixel < truth.lit.size(); ++pixel) {
         const float with = on.measured[pixel], without = off.measured[pixel];
         EXPECT_TRUE(without <= 0.0f || without >= 1.0f);
-        changes.between += with > 0.0f && with < 1.0f;
+        const bool between = with > 0.0f && with < 1.0f;
+        changes.between += between;
+        changes.apart += !between && std::bit_cast<std::uint32_t>(with) != std::bit_cast<std::uint32_t>(without);
         const bool crossed = truth.lit[pixel] > 0.0f && truth.lit[pixel] < 1.0f;
         if (truth.area[pixel] == oracle::PixelArea::whole && !crossed)
             (std::abs(with - without) > 0.0f ? changes.others : changes.same) += 1;
@@ -79,6 +84,9 @@ TEST_F(Antialias, IsFourTimesNearerThanYesOrNoAndLeavesPixelsThatNoEdgeCrosses) 
         EXPECT_EQ(on.lights[i].report.counts.bytes, off.lights[i].report.counts.bytes);
         const Changes changes = changes_of(on.lights[i], off.lights[i]);
         EXPECT_GT(changes.between, kLeastCrossed) << "nothing is antialiased";
+        EXPECT_EQ(changes.apart, 0u);
+        // Control: another light's pixels are apart.
+        EXPECT_GT(changes_of(on.lights[i], off.lights[(i + 1) % off.lights.size()]).apart, kLeastCrossed);
         EXPECT_LE(static_cast<double>(changes.others), kMostExceptions * static_cast<double>(changes.same + changes.others));
     }
 }

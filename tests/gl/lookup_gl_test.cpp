@@ -70,7 +70,9 @@ TEST_F(AllLights, WithAntialiasedEdgesAreSeenAsByTheirOwnPass) {
     start({.filters = kTriangles, .antialias = true});
     run();
     const gl::ProgramHandle program = surface_program();
-    expect_alike(program);
+    // Lookups take the areas of all pixels. Passes leave out what no middle and no texel beside it shows.
+    constexpr std::size_t kMostLeftOut = 5;
+    expect_alike(program, 100, kMostLeftOut);
     for (const std::vector<float>& seen : looked_up(program)) EXPECT_GT(shares(seen), 50);
     // Control: a text without it decides by each pixel's middle.
     start({.filters = kTriangles});

@@ -1,17 +1,31 @@
 // One light over its screen rectangle: its visibility alone. VISIBLE_SHARE, LEAVE_UNDECIDED: as in light.frag.
+// MIDDLES: with the states of edges/middle_state.glsl. AREAS_ALONE: leaves out areas that no edge crosses.
 #include "lighting/gbuffer/gbuffer_read.glsl"
 #include "row.glsl"
 #include "shadow/lookup/light_block.glsl"
 #include "shadow/lookup/visibility.glsl"
 #include VISIBLE_SHARE
+#ifdef MIDDLES
+#include "lighting/edges/middle_state.glsl"
+#endif
 layout(location = 0) out float visibility_out;
 
 void main() {
     Surface surface = read_surface(ivec2(gl_FragCoord.xy));
     if (!surface.exists) discard;
-    float visible = visible_share(surface, light_at(surface.position_ca));
+    LightSample incoming = light_at(surface.position_ca);
+    float visible = visible_share(surface, incoming);
 #ifdef LEAVE_UNDECIDED
     if (shadow_undecided) discard;
 #endif
+#ifdef AREAS_ALONE
+    if (!shadow_crossed) discard;
+#endif
     visibility_out = visible;
+#ifdef MIDDLES
+#ifndef LEAVE_UNDECIDED
+    visibility_out += kUndecided;
+#endif
+    if (is_unreached(surface.geometric_normal, incoming)) visibility_out = kUnreached;
+#endif
 }

@@ -13,7 +13,7 @@ struct AreaPlaces {
     vec3 ray_right, ray_up;   // these times the ray to the light
     float lamp;               // 1 for a lamp, 0 for a sun
     uint dark;                // a bit for each place that is hidden from the light
-    bool unknown;             // some walk came to no end
+    bool unknown;             // some triangle is finer than texels, or not known
 };
 
 // Returns the places of a pixel's area, all of them lit. light.low.w: 0: the area is its middle alone.
@@ -42,18 +42,18 @@ AreaEdges area_edges(AreaPlaces area, vec3 inside, float behind, float side, vec
     return AreaEdges(vec4(inside, behind), side * vec4(right, nearer.x), side * vec4(up, nearer.y));
 }
 
-// Returns whether some place may be behind the triangle.
-bool may_overlap(AreaEdges edges) {
-    vec4 most = edges.middle + 0.5 * (abs(edges.right) + abs(edges.up));
-    return min(min(most.x, most.y), min(most.z, most.w)) >= 0.0;
-}
+// Places behind a triangle, and those beyond one of its edges alone: ab, bc, ca. A bit each.
+struct PlacesOf { uint inside; uvec3 beyond; };
 
-// Returns the bits of four places behind the triangle.
-uint four_inside(AreaEdges edges, vec4 x, vec4 y) {
+// Adds four places, as the bits from `first` on.
+void add_four(AreaEdges edges, vec4 x, vec4 y, int first, inout PlacesOf places) {
     vec4 ab = edges.middle.x + edges.right.x * x + edges.up.x * y, bc = edges.middle.y + edges.right.y * x + edges.up.y * y;
     vec4 ca = edges.middle.z + edges.right.z * x + edges.up.z * y, behind = edges.middle.w + edges.right.w * x + edges.up.w * y;
-    vec4 least = min(min(ab, bc), min(ca, behind));
-    return uint(dot(vec4(greaterThanEqual(least, vec4(0.0))), vec4(1.0, 2.0, 4.0, 8.0)));
+    const vec4 kBits = vec4(1.0, 2.0, 4.0, 8.0);
+    vec4 in_ab = vec4(greaterThanEqual(ab, vec4(0.0))), in_bc = vec4(greaterThanEqual(bc, vec4(0.0))), in_ca = vec4(greaterThanEqual(ca, vec4(0.0)));
+    vec4 both = in_bc * in_ca;
+    places.inside |= uint(dot(in_ab * both * vec4(greaterThanEqual(behind, vec4(0.0))), kBits)) << first;
+    places.beyond |= uvec3(dot(both - in_ab * both, kBits), dot((in_ab - in_ab * in_bc) * in_ca, kBits), dot((in_bc - both) * in_ab, kBits)) << first;
 }
 
 // Places are numbered by columns of four. Returns those of one column: their distances from the middle of the area, in
@@ -61,38 +61,28 @@ uint four_inside(AreaEdges edges, vec4 x, vec4 y) {
 vec4 place_columns(float column) { return vec4(-0.484375, -0.453125, -0.421875, -0.390625) + 0.125 * column; }
 vec4 place_rows(float column) { return fract(vec4(0.015625, 0.296875, 0.578125, 0.859375) + 0.125 * column) - 0.5; }
 
-// Returns the bits of all places behind a triangle.
-uint places_inside(AreaEdges edges) {
-    uint bits = four_inside(edges, place_columns(0.0), place_rows(0.0)) | four_inside(edges, place_columns(1.0), place_rows(1.0)) << 4;
-    bits |= four_inside(edges, place_columns(2.0), place_rows(2.0)) << 8 | four_inside(edges, place_columns(3.0), place_rows(3.0)) << 12;
-    bits |= four_inside(edges, place_columns(4.0), place_rows(4.0)) << 16 | four_inside(edges, place_columns(5.0), place_rows(5.0)) << 20;
-    return bits | four_inside(edges, place_columns(6.0), place_rows(6.0)) << 24 | four_inside(edges, place_columns(7.0), place_rows(7.0)) << 28;
+// Returns all places of a triangle.
+PlacesOf places_of(AreaEdges edges) {
+    PlacesOf places = PlacesOf(0u, uvec3(0u));
+    add_four(edges, place_columns(0.0), place_rows(0.0), 0, places);
+    add_four(edges, place_columns(1.0), place_rows(1.0), 4, places);
+    add_four(edges, place_columns(2.0), place_rows(2.0), 8, places);
+    add_four(edges, place_columns(3.0), place_rows(3.0), 12, places);
+    add_four(edges, place_columns(4.0), place_rows(4.0), 16, places);
+    add_four(edges, place_columns(5.0), place_rows(5.0), 20, places);
+    add_four(edges, place_columns(6.0), place_rows(6.0), 24, places);
+    add_four(edges, place_columns(7.0), place_rows(7.0), 28, places);
+    return places;
 }
+
+// Returns where a place lies, pixels from the middle.
+vec2 place_in_area(int i) { return (vec2(i, 9 * i & kPlaceCount - 1) + 0.5) / float(kPlaceCount) - 0.5; }
 
 // Returns the weights of a triangle's corners at the place of the lowest bit.
 vec3 weights_at(AreaEdges edges, uint places) {
-    int i = findLSB(places);
-    vec2 place = vec2(i, 9 * i & kPlaceCount - 1) / float(kPlaceCount) + 0.5 / float(kPlaceCount) - 0.5;
+    vec2 place = place_in_area(findLSB(places));
     vec4 inside = edges.middle + edges.right * place.x + edges.up * place.y;
     return vec3(inside.y, inside.z, inside.x) / (inside.x + inside.y + inside.z);
-}
-
-// Four texels around a corner: where the middle lies from that corner, and how that moves as the pixel moves by one.
-struct AreaQuarters { vec2 middle, right, up; };
-
-uint four_in_quarters(AreaQuarters quarters, bvec4 texels, vec4 x, vec4 y) {
-    vec4 u = quarters.middle.x + quarters.right.x * x + quarters.up.x * y, v = quarters.middle.y + quarters.right.y * x + quarters.up.y * y;
-    bvec4 is_right = greaterThan(u, vec4(0.0)), is_above = greaterThan(v, vec4(0.0));
-    vec4 set = mix(mix(vec4(texels.w), vec4(texels.z), is_right), mix(vec4(texels.x), vec4(texels.y), is_right), is_above);
-    return uint(dot(set, vec4(1.0, 2.0, 4.0, 8.0)));
-}
-
-// Returns the bits of all places with one of these texels, in textureGather's order, for the nearest.
-uint places_in_quarters(AreaQuarters quarters, bvec4 texels) {
-    uint bits = four_in_quarters(quarters, texels, place_columns(0.0), place_rows(0.0)) | four_in_quarters(quarters, texels, place_columns(1.0), place_rows(1.0)) << 4;
-    bits |= four_in_quarters(quarters, texels, place_columns(2.0), place_rows(2.0)) << 8 | four_in_quarters(quarters, texels, place_columns(3.0), place_rows(3.0)) << 12;
-    bits |= four_in_quarters(quarters, texels, place_columns(4.0), place_rows(4.0)) << 16 | four_in_quarters(quarters, texels, place_columns(5.0), place_rows(5.0)) << 20;
-    return bits | four_in_quarters(quarters, texels, place_columns(6.0), place_rows(6.0)) << 24 | four_in_quarters(quarters, texels, place_columns(7.0), place_rows(7.0)) << 28;
 }
 
 // Returns the share of the places that is lit.

@@ -6,9 +6,6 @@
 #include "shadow/filters/triangles/triangle_buffer.glsl"
 #include "shadow/lookup/light_vector.glsl"
 #include RAY_MASKS
-#if SHADOW_ANTIALIAS
-#include "shadow/filters/triangles/area_places.glsl"
-#endif
 
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
 const uint kNowhere = 0xfffffffdu;   // the triangle before the first of a walk
@@ -43,38 +40,11 @@ int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2)
     return is_there(t.across_bc, t.across_ca, weights) ? kBlocked : kPasses;
 }
 
-#if SHADOW_ANTIALIAS
-// Triangles that texels show: four around the receiver, which decide about its middle, and blocks of four around its
-// pixel's area.
-struct ShownTriangles { FourTriangles inner, a, b, c, d; };
-const int kDeciding = 15;
-// Most steps of a walk that starts at an outer texel. It darkens what lies between there and the receiver.
-const int kMostOuterSteps = 3;
-// Most triangles of a walk beyond its triangle that hides the middle.
-const int kMostBeyond = 4;
-
-uvec2 one_of(FourTriangles shown, int bits) {
-    int i = (bits & 1) != 0 ? 0 : ((bits & 2) != 0 ? 1 : ((bits & 4) != 0 ? 2 : 3));
-    return uvec2(shown.instance[i], shown.triangle[i]);
-}
-
-// Returns the triangle of the lowest bit.
-uvec2 shown_at(ShownTriangles shown, int bits) {
-    if ((bits & 0xf) != 0) return one_of(shown.inner, bits);
-    if ((bits & 0xf0) != 0) return one_of(shown.a, bits >> 4);
-    if ((bits & 0xf00) != 0) return one_of(shown.b, bits >> 8);
-    if ((bits & 0xf000) != 0) return one_of(shown.c, bits >> 12);
-    return one_of(shown.d, bits >> 16);
-}
-#else
-#define ShownTriangles FourTriangles
-
 // Returns the triangle of the lowest bit, out of four that texels show.
 uvec2 shown_at(FourTriangles shown, int bits) {
     int i = (bits & 1) != 0 ? 0 : ((bits & 2) != 0 ? 1 : ((bits & 4) != 0 ? 2 : 3));
     return uvec2(shown.instance[i], shown.triangle[i]);
 }
-#endif
 
 // Returns the verdict on the triangles of `shown` with bits in `left`, one after the other.
 // A walk starts at the triangle that a texel shows and goes through the mesh toward the receiver's ray. Where a
@@ -87,13 +57,7 @@ uvec2 shown_at(FourTriangles shown, int bits) {
 // `texel`: sides of the map's texel, metres, or tangents from a lamp. kUnknown: some walk came to no end before any
 // fold, and none was blocked.
 // One loop takes all steps of all walks. Neighbouring pixels go in step: no walk stands still until another's ends.
-#if SHADOW_ANTIALIAS
-// Darkens places of `area`, too. So all walks are taken, also where the middle is blocked. Walks from the sixteen
-// around the area leave the verdict as it is.
-int casters_verdict(ShownTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel, inout AreaPlaces area) {
-#else
-int casters_verdict(ShownTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
-#endif
+int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca), view = to_camera(position_ca);
     // True: the receiver faces the camera. Only then the side of a triangle that the camera sees is the receiver's.
     bool shows = dot(receiver_normal, view) > 0.0;
@@ -103,9 +67,6 @@ int casters_verdict(ShownTriangles shown, int left, vec3 position_ca, vec3 recei
     bool toward = true;   // over an edge beyond which the ray passes
     float facing = 0.0;
     int steps = 0, folds = 0;
-#if SHADOW_ANTIALIAS
-    int beyond = 0;
-#endif
     if (left != 0) do {
         InstanceRecord instance = instance_record(at.x);
         CasterTriangle t = caster_triangle(at.y == kNoTriangle ? 0u : at.y);
@@ -154,28 +115,8 @@ int casters_verdict(ShownTriangles shown, int left, vec3 position_ca, vec3 recei
             ends = true;
         }
         if (at.y == kNoTriangle) verdict = kUnknown;
-#if SHADOW_ANTIALIAS
-        bool decides = (left & kDeciding) != 0;
-        bool whole = has_area && darkens && at.y != kNoTriangle && !(kHasMasks && t.across_ab == kMaskedTriangle);
-        AreaEdges edges = area_edges(area, inside, behind - rounding, side, normal, mat3(ab, c - b, -ac), mat3(beside_ab, beside_bc, beside_ca));
-        // Loops, since software devices run what is in an `if` for every pixel.
-        for (int overlaps = whole && may_overlap(edges) ? 1 : 0; overlaps > 0; --overlaps) area.dark |= places_inside(edges);
-        // What hides the middle may be wider than the triangle there: its neighbour over the nearest edge, and the next.
-        bool goes_on = (beyond > 0 ? has_area : met && whole) && beyond < kMostBeyond && next != kNoTriangle;
-        ends = beyond > 0 ? !goes_on : (ends && !goes_on) || (!decides && (folds > 0 || steps == kMostOuterSteps));
-        if (beyond > 0) verdict = kPasses;
-        blocked = blocked || (decides && verdict == kBlocked);
-        unknown = unknown || (decides && ends && verdict == kUnknown);
-        beyond = ends ? 0 : (goes_on || beyond > 0 ? beyond + 1 : 0);
-        area.unknown = area.unknown || (decides && ends && verdict == kUnknown);
-        bool cut = kHasMasks && t.across_ab == kMaskedTriangle && verdict != kUnknown && behind > rounding;
-        uint by_mask = cut ? places_inside(edges) & ~area.dark : 0u;
-        for (; by_mask != 0u; by_mask &= by_mask - 1u)
-            if (is_there(t.across_bc, t.across_ca, weights_at(edges, by_mask))) area.dark |= by_mask & -by_mask;
-#else
         blocked = verdict == kBlocked;
         unknown = unknown || (ends && verdict == kUnknown);
-#endif
         came_from = ends ? kNowhere : at.y;
         toward = ends || way < 0.0;
         facing = ends ? 0.0 : faces;
@@ -183,10 +124,6 @@ int casters_verdict(ShownTriangles shown, int left, vec3 position_ca, vec3 recei
         folds = ends ? 0 : folds;
         left = ends ? left & (left - 1) : left;
         at = ends ? shown_at(shown, left) : uvec2(at.x, next);
-#if SHADOW_ANTIALIAS
-    } while (left != 0 && !(blocked && area.dark == kAllPlaces));
-#else
     } while (left != 0 && !blocked);
-#endif
     return blocked ? kBlocked : (unknown ? kUnknown : kPasses);
 }

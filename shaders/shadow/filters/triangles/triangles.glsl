@@ -31,9 +31,7 @@ int different(FourTexels four, bvec4 may, FourTriangles shown) {
     return bits;
 }
 
-#if SHADOW_ANTIALIAS
-#include "shadow/filters/triangles/over_area.glsl"
-#elif defined(LEAVE_UNDECIDED)
+#ifdef LEAVE_UNDECIDED
 // true where texels do not agree, in the first draw of a light.
 bool shadow_undecided = false;
 
@@ -47,7 +45,7 @@ float shadow_filter(ShadowPoint point) {
 // Returns 1 where the receiver is lit, else 0. What is tested is found first, because loops take as many rounds as the
 // slowest of neighbouring pixels. Software devices run both sides of an `if`, thus each loop once. Conditions
 // of loops come last: tested before a round, they cost one round more than any pixel needs.
-float shadow_filter(ShadowPoint point) {
+float lit_in_middle(ShadowPoint point) {
     FourTexels four = four_texels(point);
     bvec4 may = may_darken(point, four);
     bool lit = !any(may);
@@ -64,4 +62,26 @@ float shadow_filter(ShadowPoint point) {
     }
     return lit ? 1.0 : 0.0;
 }
+
+#if SHADOW_ANTIALIAS
+#include "shadow/filters/triangles/area_walk.glsl"
+#include "shadow/filters/triangles/over_area.glsl"
+#ifdef AREAS_ALONE
+// true where an edge crosses the area.
+bool shadow_crossed = false;
+
+float shadow_filter(ShadowPoint point) {
+    float share = area_share(point);
+    shadow_crossed = shadow_crossed || (share > 0.0 && share < 1.0);
+    return share;
+}
+#else
+float shadow_filter(ShadowPoint point) {
+    float share = area_share(point);
+    return share > 0.0 && share < 1.0 ? share : lit_in_middle(point);
+}
+#endif
+#else
+float shadow_filter(ShadowPoint point) { return lit_in_middle(point); }
+#endif
 #endif
