@@ -7,6 +7,7 @@
 
 #include "bench/accuracy/accuracy.h"
 #include "bench/accuracy/error_images.h"
+#include "bench/accuracy/stated_accuracy.h"
 #include "bench/audit/audit_command.h"
 #include "bench/common/arguments.h"
 #include "bench/common/stage.h"
@@ -106,7 +107,8 @@ int run_accuracy(const Arguments& arguments) {
         return fail(*error);
     if (!arguments.pictures.empty())
         if (auto error = write_heat_pictures(accuracy.value(), arguments.pictures)) return fail(*error);
-    return 0;
+    const auto& lights = accuracy.value().lights;
+    return std::all_of(lights.begin(), lights.end(), is_as_stated) ? 0 : kNotSound;
 }
 
 int run_audits(const Arguments& arguments) {

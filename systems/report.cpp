@@ -117,7 +117,7 @@ const char* reason_text(Reason reason) {
         case Reason::refresh_held:
             return "The map shows casters at an earlier place, within the error allowed or deferred by the budget.";
         case Reason::map_too_coarse:
-            return "No map of the default filter meets max_error_px, so that another filter was chosen.";
+            return "No map of the default filter meets max_error_px and narrowest_caster_px, so that another filter was chosen.";
         case Reason::visibility_kept:
             return "Visibility per pixel of an earlier frame is valid and was read.";
         case Reason::resolution_clamped:

@@ -7,6 +7,7 @@
 #include "bench/accuracy/surface_mismatch.h"
 #include "bench/accuracy/unexplained_errors.h"
 #include "systems/shadow/request/filter_table.h"
+#include "tests/oracle/caster_pieces.h"
 
 namespace gnomon::bench {
 namespace {
@@ -48,8 +49,8 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
     return std::nullopt;
 }
 
-void judge_edges(const TracedPicture& picture, const EdgeBounds& bounds, const AccuracyOptions& options,
-                 LightAccuracy& light) {
+void judge_edges(const TracedPicture& picture, const oracle::CasterPieces& pieces, const EdgeBounds& bounds,
+                 const AccuracyOptions& options, LightAccuracy& light) {
     const std::uint32_t index = picture.light;
     const oracle::PrimaryHits& hits = picture.hits;
     const auto exceptions = [&](const oracle::TexelAt& texel_at) {
@@ -64,10 +65,19 @@ void judge_edges(const TracedPicture& picture, const EdgeBounds& bounds, const A
         return bounds.promised(index, point, normal, options.wished);
     };
     if (light.report.keeps_max_error) light.contract = exceptions(promised_at);
+    const auto resolving_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+        return bounds.resolving(index, point, normal, options.telling);
+    };
+    light.resolved = oracle::resolved_edges(picture.tracer, hits, picture.scene.consumers.front(),
+                                            picture.scene.lights[index], picture.truth, light.metrics.edge,
+                                            pieces.seen_from(picture.scene.lights[index]), resolving_at);
+    const double stated_m = light.report.resolved.m * options.stating * (1.0 + kRounding);
+    const bool rays = shadow::filter_row(light.report.filter.filter).rays != nullptr;
     for (std::size_t i = 0; i < hits.count(); ++i) {
         if (picture.truth.scored[i] == 0) continue;
         const glm::dvec3 &point = hits.position_rel_m[i], &normal = hits.normal_ws[i];
         const double stated_px = bounds.stated_px(index, point, normal);
+        light.needs_wider += !rays && bounds.resolved_m(index, point, normal) > stated_m;
         light.beyond_stated += stated_px > 0.0 && texel_at(point, normal).error_px > stated_px * (1.0 + kRounding);
     }
 }
@@ -115,13 +125,14 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     accuracy.camera_ws_m = camera.position_ws_m;
     const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().fit_history());
     const std::vector<std::uint8_t> creases = oracle::creases(hits);
+    const oracle::CasterPieces pieces(tracer, snapshot, stage.library());
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];
         if (is_left_out(light.report)) continue;
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
         const TracedPicture picture{tracer, hits, creases, snapshot, indices[k], light.truth};
-        judge_edges(picture, bounds, options, light);
+        judge_edges(picture, pieces, bounds, options, light);
         light.far = errors_beyond_texels(picture, bounds, light.measured);
         if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
             light.promised = promised_errors(light);

@@ -15,6 +15,7 @@
 #include "tests/oracle/far_errors.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"
+#include "tests/oracle/resolved_edges.h"
 #include "tests/oracle/soft_metrics.h"
 
 namespace gnomon::bench {
@@ -40,9 +41,11 @@ struct LightAccuracy {
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
     oracle::EdgeExceptions exceptions;         // edges farther off than predicted there, by name
     oracle::EdgeExceptions contract;           // edges farther off than max_error_px, where the report states it is met
+    oracle::ResolvedEdges resolved;            // edges of what the map resolves, and how far off they are
     oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
     std::optional<PromisedErrors>
-        promised;  // errors that defaults are judged by; none if the filter softens by the source's size
+        promised;                 // errors that defaults are judged by; none if the filter softens by the source's size
+    std::size_t needs_wider = 0;  // scored pixels with a texel that resolves only wider casters than is stated: 0
     std::size_t beyond_stated = 0;     // scored pixels with a larger bound than their view states for their slope: 0
     std::optional<SoftAccuracy> soft;  // accuracy about a source with a size; empty: the light has none
     std::optional<AreaAccuracy> area;  // empty: AccuracyOptions::area_side is 0
@@ -64,7 +67,8 @@ struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_ambiguous = true;
     std::uint32_t area_side = 0;  // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
-    double telling = 1.0;  // factor on predicted texels, see EdgeBounds::at()
+    double telling = 1.0;         // factor on predicted texels, see EdgeBounds::at()
+    double stating = 1.0;  // factor on the stated width of what is resolved; below 1 shows how a broken one looks
     double wished = 1.0;   // factor on max_error_px, see EdgeBounds::promised()
 };
 

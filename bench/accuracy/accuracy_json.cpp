@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/stated_accuracy.h"
 #include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::bench {
@@ -32,9 +33,9 @@ Json to_json(const SoftAccuracy& soft) {
 
 Json to_json(const AreaAccuracy& area) {
     const oracle::AreaMetrics& m = area.metrics;
-    return {{"crossed_px", m.crossed},         {"mean_error", m.mean_error}, {"bias", m.bias},
-            {"p99_error", m.p99_error},        {"uncrossed_px", m.uncrossed}, {"uncrossed_error", m.uncrossed_error},
-            {"partial_px", m.partial},         {"partial_error", m.partial_error}};
+    return {{"crossed_px", m.crossed},  {"mean_error", m.mean_error},      {"bias", m.bias},
+            {"p99_error", m.p99_error}, {"uncrossed_px", m.uncrossed},     {"uncrossed_error", m.uncrossed_error},
+            {"partial_px", m.partial},  {"partial_error", m.partial_error}};
 }
 
 /// Adds the figures that are counted against the truth.
@@ -65,6 +66,15 @@ void add_errors(const LightAccuracy& light, Json& json) {
                                {"truth_ambiguous", light.exceptions.truth_ambiguous},
                                {"unexplained", light.exceptions.unexplained}};
     json["beyond_stated_px"] = light.beyond_stated;
+    json["resolved_edge"] = {{"places", light.resolved.places},
+                             {"unresolved", light.resolved.unresolved},
+                             {"truth_ambiguous", light.resolved.ambiguous},
+                             {"p99_px", light.resolved.p99_px},
+                             {"p999_px", light.resolved.p999_px},
+                             {"max_px", light.resolved.max_px},
+                             {"slack", slack_of(light)},
+                             {"needs_wider_px", light.needs_wider},
+                             {"as_stated", is_as_stated(light)}};
 }
 
 Json to_json(const LightAccuracy& light) {
@@ -80,6 +90,10 @@ Json to_json(const LightAccuracy& light) {
     for (const auto& error : errors.items())
         json[error.key()] = is_left_out(light.report) ? Json(nullptr) : error.value();
     json["predicted_error_px"] = light.report.predicted_error_px;
+    json["keeps_max_error"] = light.report.keeps_max_error;
+    json["resolved_px"] = light.report.resolved.px;
+    json["resolved_m"] = light.report.resolved.m;
+    json["keeps_narrowest_caster"] = light.report.resolved.keeps_narrowest;
     json["views"] = light.report.counts.views;
     json["texels"] = light.report.counts.texels;
     json["bytes"] = light.report.counts.bytes;

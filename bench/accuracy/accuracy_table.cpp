@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/stated_accuracy.h"
 #include "bench/text/printf_string.h"
 
 namespace gnomon::bench {
@@ -27,9 +28,9 @@ void append_errors(const LightAccuracy& light, std::string& text) {
 void append_edges(const LightAccuracy& light, std::string& text) {
     if (is_left_out(light.report)) return;
     const oracle::Metrics& m = light.metrics;
-    text += formatted("%-16.16s %6.2f %6.2f %6.2f %5zu %7.2f %6zu %9llu %6.1f", light.report.name.c_str(),
-                      m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, light.report.predicted_error_px,
-                      m.coverage_mismatch, static_cast<unsigned long long>(light.report.counts.texels),
+    text += formatted("%-16.16s %6.2f %6.2f %6.2f %5zu %6zu %9llu %6.1f", light.report.name.c_str(), m.edge.mean_px,
+                      m.edge.p95_px, m.edge.max_px, m.edge.lost, m.coverage_mismatch,
+                      static_cast<unsigned long long>(light.report.counts.texels),
                       static_cast<double>(light.report.counts.bytes) / kBytesPerMb);
     if (light.gpu_us.count == 0)
         text += formatted(" %19s", "not measured");
@@ -38,6 +39,15 @@ void append_edges(const LightAccuracy& light, std::string& text) {
                           light.gpu_us.max / kUsPerMs);
     const bool as_requested = light.report.reason == Reason::none;
     text += formatted("  %s\n", as_requested ? to_text(light.report.state) : reason_code(light.report.reason));
+}
+
+void append_resolved(const LightAccuracy& light, std::string& text) {
+    if (is_left_out(light.report)) return;
+    const oracle::ResolvedEdges& edges = light.resolved;
+    const ResolvedWidth& width = light.report.resolved;
+    text += formatted("%-18.18s %8zu %7.2f %8.2f %8.2f %8.2f %8.1f %9.2f %9.3g %8zu\n", light.report.name.c_str(),
+                      edges.places, edges.p99_px, edges.p999_px, edges.max_px, light.report.predicted_error_px,
+                      slack_of(light), width.px, width.m, edges.unresolved);
 }
 
 void append_soft(const Accuracy& accuracy, std::string& text) {
@@ -69,7 +79,8 @@ void append_area(const Accuracy& accuracy, std::string& text) {
                           m.partial, m.partial_error);
     }
     text +=
-        "\ncrossed: pixels with an area of one surface that the light reaches in part. error: mean difference from that "
+        "\ncrossed: pixels with an area of one surface that the light reaches in part. error: mean difference from "
+        "that "
         "part;\n"
         "bias: its mean with its sign, above 0 too bright. uncrossed: pixels that it reaches wholly or not at all. "
         "partial:\n"
@@ -90,7 +101,12 @@ std::string accuracy_legend() {
            "ray\n"
            "  uncov     no surface measured, counted as wrong; cover: the same over the whole picture\n"
            "  mean, p95, max  distance of shadow edges from the true ones, px; lost: places with no edge within 8 px\n"
-           "  at most   bound on that distance that the fit states, px\n"
+           "  resolved  edges of casters, and of gaps between them, that rays find wide enough for the map's texels; "
+           "narrower:\n"
+           "            places left out. at most: bound on their distance that the report states, px; slack: that over "
+           "p99,\n"
+           "            or 0.25 px. from: width at the receiver from which on casters are resolved, as the report "
+           "states it\n"
            "  ms        depth and lighting pass, every map redrawn\n"
            "Of lights with a size, against 256 rays to it: source is the radius in metres, or the tangent of a sun's;\n"
            "error the mean difference; leak the mean light where none of it is seen; loss the mean light missing where "
@@ -106,9 +122,12 @@ std::string accuracy_table(const Accuracy& accuracy) {
                       "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr", "ambig", "uncov");
     for (const LightAccuracy& light : accuracy.lights) append_errors(light, text);
     for (const std::string& name : accuracy.unshadowed) text += formatted("%-18.18s has no shadow\n", name.c_str());
-    text += formatted("\n%-16s %6s %6s %6s %5s %7s %6s %9s %6s %19s  %s\n", "edges and cost", "mean", "p95", "max",
-                      "lost", "at most", "cover", "texels", "MB", "ms (least-most)", "state");
+    text += formatted("\n%-16s %6s %6s %6s %5s %6s %9s %6s %19s  %s\n", "edges and cost", "mean", "p95", "max", "lost",
+                      "cover", "texels", "MB", "ms (least-most)", "state");
     for (const LightAccuracy& light : accuracy.lights) append_edges(light, text);
+    text += formatted("\n%-18s %8s %7s %8s %8s %8s %8s %9s %9s %8s\n", "resolved edges", "places", "p99", "p99.9",
+                      "max", "at most", "slack", "from px", "from m", "narrower");
+    for (const LightAccuracy& light : accuracy.lights) append_resolved(light, text);
     append_soft(accuracy, text);
     append_area(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
@@ -118,6 +137,9 @@ std::string accuracy_table(const Accuracy& accuracy) {
                 "truth_ambiguous %zu, unexplained %zu.\n",
                 light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster, e.truth_ambiguous,
                 e.unexplained);
+    for (const LightAccuracy& light : accuracy.lights)
+        if (const std::string broken = broken_words(light); !broken.empty())
+            text += light.report.name + ": NOT AS STATED: " + broken + ".\n";
     for (const LightAccuracy& light : accuracy.lights)
         if (const std::string above = light.promised ? promise_words(*light.promised) : ""; !above.empty())
             text += light.report.name + ": above what defaults are to keep: " + above +

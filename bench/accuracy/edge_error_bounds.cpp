@@ -169,6 +169,12 @@ oracle::TexelThere EdgeBounds::within(std::uint32_t light, const glm::dvec3& poi
     return texel;
 }
 
+double EdgeBounds::resolved_m(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const {
+    const oracle::TexelThere texel = resolving(light, point_rel_m, normal);
+    const double diagonal_m = std::max(glm::length(texel.u_m + texel.v_m), glm::length(texel.u_m - texel.v_m));
+    return shadow::resolved_width_texel(texel.filter_texel) * diagonal_m;
+}
+
 double EdgeBounds::stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const {
     const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);

@@ -31,6 +31,15 @@ public:
     oracle::TexelThere within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                               double error_px, double wished = 1.0) const;
 
+    /// Returns the texel that may move an edge there; no error is allowed. `telling`: as at().
+    oracle::TexelThere resolving(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                 double telling = 1.0) const {
+        return within(light, point_rel_m, normal, 0.0, telling);
+    }
+
+    /// Returns the width of a caster, across the light at the point, that the texel there resolves, metres.
+    double resolved_m(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const;
+
     /// Returns the edge of the light's maps that the bounds are for, texels; 0: it has none.
     std::uint32_t map_px(std::uint32_t light) const { return fitted_.lights[light].request.map.resolution_px; }
 

@@ -82,6 +82,7 @@ inline constexpr std::uint8_t kAllLayers = 0xff;
 struct Shadow {
     Filter filter = Filter::bilinear;  // how your lookup reads its maps
     float max_error_px = 0.0f;         // allowed error of an edge on screen; 0: 1, as far as usual sizes meet it
+    float narrowest_caster_px = 0.0f;  // width of the narrowest caster that must count, on screen; 0: any
     std::uint32_t resolution_px = 0;   // edge of one map, cascade or face; 0: chosen by the allowed error
     std::uint32_t cascades = 0;        // sun: at most kMostCascades; 0: as few as meet the allowed error, 1 to 4
     std::uint32_t kernel_texel = 3;    // filters that say so: odd, 1 to 31
@@ -161,7 +162,7 @@ struct Settings {
 enum class Status : std::uint8_t {
     // The light has maps.
     fitted,              // as requested
-    error_above_target,  // no map that the device has meets max_error_px
+    error_above_target,  // no map that the device has meets max_error_px and narrowest_caster_px
     resolution_clamped,  // the device's limit is below the requested size
     cascades_clamped,    // more cascades than a light can have
     splits_invalid,      // split_m, split_lambda or blend is invalid: the default is used
@@ -228,7 +229,9 @@ struct View {
     /// from `fade_from_m` to `fade_to_m`. All 0: it serves whatever lies in it and in none before it.
     double from_m = 0.0, to_m = 0.0, fade_from_m = 0.0, fade_to_m = 0.0;
     double texel_m = 0.0;         // largest diagonal of a texel across the light, at any visible receiver
-    double edge_error_px = 0.0;   // bound on the distance on screen between a shadow's edge and the true one
+    double edge_error_px = 0.0;   // bound on the distance on screen between a resolved caster's edge and the true one
+    double resolved_px = 0.0;     // width of a caster that it resolves, at its receiver across the light, on screen
+    double resolved_m = 0.0;      // the same, metres
     Bias bias;                    // numbers for offset_at()
     std::uint32_t receivers = 0;  // number of visible receivers in it
     /// Bits of the cameras that look it up, by index into Scene::cameras. All from the 32nd share the last.
@@ -245,8 +248,10 @@ struct LightFit {
     std::uint32_t map_px = 0;         // edge of each map, texels
     std::uint32_t layers = 0;         // maps to make room for; its views may be fewer
     bool cube = false;                // point: its views are faces of a cube
-    bool meets_target = false;        // no edge is off by more than the allowed error and the picture's own pixel
+    bool meets_target = false;        // it meets max_error_px, apart from the picture's pixel, and narrowest_caster_px
     double edge_error_px = 0.0;       // largest of its views
+    double resolved_px = 0.0;         // largest of its views
+    double resolved_m = 0.0;          // largest of its views
     double blend = 0.0;               // sun: share of a cascade that fades into the next one
     double faces_share = 0.0;         // spot: weight of the views of faces against the single view, the last one
     glm::dmat3 cube_from_world{1.0};  // cube: turns world directions from the light into those of the cube's lookup

@@ -119,6 +119,12 @@ struct FilterReport {
     ShadowFilter filter = ShadowFilter::automatic;  // automatic: the light is skipped
     Reason reason = Reason::none;                   // map_too_coarse: chosen by the accuracy target
     std::optional<double> usual_error_px;           // error of the default filter's maps, in that case
+    std::optional<double> usual_resolved_px;        // width that a caster must have for those maps to resolve it
+};
+
+/// Views of a light in FrameReport::views.
+struct ReportedViews {
+    std::uint32_t first = 0, count = 0;  // count 0: it has none
 };
 
 /// Maps of a light, and the work on them in this frame.
@@ -139,16 +145,17 @@ struct LightReport {
     LightKind kind = LightKind::point;       // as Light::kind
     LightState state = LightState::skipped;  // what the frame did for its shadow
     Reason reason = Reason::none;            // why it has that state
-    double predicted_error_px = 0.0;         // worst shadow-edge error over its views
+    double predicted_error_px = 0.0;         // bound on the error of edges of resolved casters, over its views
     bool keeps_max_error = false;            // meets LightShadow::max_error_px, apart from the picture's own pixel
+    ResolvedWidth resolved;                  // how wide a caster must be to be resolved, over its views
     LightCounts counts;                      // maps and work
     double cpu_us = 0.0;                     // time of the shadow stages for this light alone
     std::optional<double> gpu_us;  // shadow and lighting pass, from the newest measured frame; empty: not measured
     Why why;                       // numbers behind its state
     KeptReport kept;               // visibility per pixel kept from earlier frames
     FilterReport filter;           // filter that reads its map
-    std::optional<BudgetReport> budget;            // empty: no budget is set, or the light needed no map
-    std::uint32_t first_view = 0, view_count = 0;  // range in FrameReport::views; empty if skipped
+    std::optional<BudgetReport> budget;  // empty: no budget is set, or the light needed no map
+    ReportedViews views;                 // its views; empty if skipped
 };
 
 /// Returns true if the light is lit everywhere on purpose, because its shadow would be invisible. Pixels that it should
@@ -209,7 +216,7 @@ struct FrameReport {
     RayReport rays;                               // resources of lights with rays
     /// Returns the views of one of its lights.
     std::span<const ViewReport> views_of(const LightReport& light) const {
-        return std::span(views).subspan(light.first_view, light.view_count);
+        return std::span(views).subspan(light.views.first, light.views.count);
     }
     /// Clears the last frame. Lights and dropped entities stay, because their names own memory; the stages overwrite
     /// them.

@@ -86,7 +86,7 @@ enum class ShadowFilter : std::uint8_t {
     exact,               // no wrong pixel: rays where the map is uncertain
     exact_soft,          // the same for a source with a size
     count,               // number of filters
-    automatic            // triangles, or exact where only that meets max_error_px
+    automatic            // triangles, or exact where only that meets max_error_px and narrowest_caster_px
 };
 /// Returns its name, for example "pcf_grid".
 const char* to_text(ShadowFilter filter);
@@ -104,16 +104,20 @@ inline constexpr std::size_t kMaxCascades = 8;
 struct LightShadow {
     /// Switch of the light's shadows. false: the light shines through everything, and its maps are freed.
     bool enabled = true;
-    /// Filter that reads the map. `automatic`: triangles, which measures best. It becomes exact
-    /// where max_error_px is set and no map with triangles meets it. Change it for soft shadows (pcss, exact_soft), for
-    /// edges without any error (exact), or for speed (hardware_2x2).
+    /// Filter that reads the map. `automatic`: triangles, which measures best. It becomes exact where max_error_px or
+    /// narrowest_caster_px is set and no map with triangles meets it. Change it for soft shadows (pcss, exact_soft),
+    /// for edges without any error (exact), or for speed (hardware_2x2).
     ShadowFilter filter = ShadowFilter::automatic;
     /// Antialiased edges of `triangles`: visibility is the share of a pixel's area that the light reaches. false: 0 or
     /// 1, by the pixel's middle. Other filters do not depend on it. Set it where stairs at edges show; it costs time.
     bool antialias = false;
     /// Largest allowed error of a shadow's edge on screen, pixels, 0 to 10 000. 0: 1, as far as maps of default size
-    /// meet it. Smaller: larger maps or a slower filter. Larger: less memory and time.
+    /// meet it. It holds for casters that the map resolves (ResolvedWidth). Smaller: larger maps or a slower filter.
+    /// Larger: less memory and time.
     float max_error_px = 0.0f;
+    /// Width of the narrowest caster that must count, at its receiver across the light, pixels, 0 to 10 000. 0: any.
+    /// Smaller: larger maps, or exact. Set it where fences, leaves or wires must not be lost.
+    float narrowest_caster_px = 0.0f;
     /// Edge of one map, cascade or cube face, texels, 0 to 65 536. 0: chosen by the system for max_error_px. Set it to
     /// fix the memory; more than the device allows is reported (resolution_clamped).
     std::uint32_t resolution_px = 0;
@@ -130,6 +134,16 @@ struct LightShadow {
     /// things cast no shadow, or get none, under this light alone.
     ShadowLayers layers = kAllShadowLayers;
     bool operator==(const LightShadow&) const = default;
+};
+
+/// Width that a caster must have for a light's maps to resolve it, and a gap between casters for its light. Edges of
+/// what is wider are no farther off than predicted. What is narrower may be drawn, broken or missing. Widths are those
+/// of the shadow at its receiver, across the light: a slope stretches both it and the texels. 0: any width.
+struct ResolvedWidth {
+    double px = 0.0;               // where the picture shows texels largest, pixels
+    double m = 0.0;                // where texels are largest, metres
+    bool keeps_narrowest = false;  // px is at most LightShadow::narrowest_caster_px, or that is 0
+    bool operator==(const ResolvedWidth&) const = default;
 };
 
 }  // namespace gnomon

@@ -21,7 +21,7 @@ enum class Reason : std::uint8_t {
     below_display_step,   // lit everywhere: it and similar lights change no pixel by more than half a step
     content_unchanged,    // the map of an earlier frame is still valid
     refresh_held,         // shows casters at an earlier place: within refresh_error_px, or deferred by a budget
-    /// The default filter's maps exceed max_error_px: the light has a filter that meets it.
+    /// The default filter's maps miss max_error_px or narrowest_caster_px: the light has a filter that meets them.
     map_too_coarse,
     visibility_kept,     // visibility per pixel from an earlier frame is still valid
     resolution_clamped,  // the device's limit is below the requested size

@@ -188,8 +188,9 @@ struct Mask {
 struct LightStatus {
     LightState state = LightState::skipped;         // the worst over all views
     Reason reason = Reason::none;                   // reason_code() names it, reason_text() explains it
-    double predicted_error_px = 0.0;                // bound on how far its edges are off, pixels
+    double predicted_error_px = 0.0;                // bound on how far edges of resolved casters are off, pixels
     bool keeps_max_error = false;                   // predicted_error_px is within LightShadow::max_error_px
+    ResolvedWidth resolved;                         // how wide a caster must be to be resolved
     ShadowFilter filter = ShadowFilter::automatic;  // that its maps are read with; automatic: it has no shadow
     std::uint32_t maps = 0, maps_drawn = 0;         // cascades, faces or views; drawn in this frame
     std::uint32_t draws = 0;                        // draw calls into them

@@ -56,7 +56,8 @@ Json kept_stats(const KeptReport& kept) {
 Json filter_stats(const FilterReport& filter) {
     return {{"name", to_text(filter.filter)},
             {"reason", reason_code(filter.reason)},
-            {"usual_error_px", or_null(filter.usual_error_px)}};
+            {"usual_error_px", or_null(filter.usual_error_px)},
+            {"usual_resolved_px", or_null(filter.usual_resolved_px)}};
 }
 
 Json light_stats(const FrameReport& report, const LightReport& light) {
@@ -66,6 +67,9 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"reason", reason_code(light.reason)},
             {"predicted_error_px", light.predicted_error_px},
             {"keeps_max_error", light.keeps_max_error},
+            {"resolved_px", light.resolved.px},
+            {"resolved_m", light.resolved.m},
+            {"keeps_narrowest_caster", light.resolved.keeps_narrowest},
             {"filter", light.filter.filter == ShadowFilter::automatic ? Json(nullptr) : filter_stats(light.filter)},
             {"views", light.counts.views},
             {"views_drawn", light.counts.views_drawn},

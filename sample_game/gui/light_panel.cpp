@@ -146,7 +146,7 @@ void draw_why(const FrameReport& report) {
     for (const LightReport& light : report.lights) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        const ImGuiTreeNodeFlags leaf = light.view_count == 0 ? ImGuiTreeNodeFlags_Leaf : ImGuiTreeNodeFlags_None;
+        const ImGuiTreeNodeFlags leaf = light.views.count == 0 ? ImGuiTreeNodeFlags_Leaf : ImGuiTreeNodeFlags_None;
         const bool open = ImGui::TreeNodeEx(light.name.c_str(), leaf);
         why_cells(light.state, light.reason, light.why);
         if (!open) continue;
@@ -170,8 +170,17 @@ std::string filter_words(const FilterReport& filter) {
 }
 
 void draw_report(const FrameReport& report) {
-    constexpr std::array kColumns{"light", "state", "reason", "filter", "texels",
-                                  "KiB",   "draws", "CPU us", "GPU us", "edges off, px"};
+    constexpr std::array kColumns{"light",
+                                  "state",
+                                  "reason",
+                                  "filter",
+                                  "texels",
+                                  "KiB",
+                                  "draws",
+                                  "CPU us",
+                                  "GPU us",
+                                  "edges off, px",
+                                  "counts from, px (m)"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::CollapsingHeader("shadow of each light", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
@@ -198,6 +207,8 @@ void draw_report(const FrameReport& report) {
         time_cell(light.gpu_us);
         ImGui::TableNextColumn();
         ImGui::Text("%.2f", light.predicted_error_px);
+        ImGui::TableNextColumn();
+        ImGui::Text("%.2f (%.3g)", light.resolved.px, light.resolved.m);
     }
     ImGui::EndTable();
 }

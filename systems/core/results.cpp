@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/core/signature.h"
+#include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/frame/depth_format.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/projection/depth_rounding.h"
@@ -145,6 +146,8 @@ View view_of(const StageResults& stages, const ShadowView& from, const Conventio
     view.fade_to_m = from.cascade.fades_to_m;
     view.texel_m = from.error.texel_m;
     view.edge_error_px = from.error.edge_px;
+    view.resolved_px = shadow::accuracy_of(from).resolved_px;
+    view.resolved_m = from.error.resolved_m;
     view.bias = bias_of(from, request, convention.reversed_depth);
     view.receivers = from.receivers;
     view.cameras = stages.input.camera_mask(from.consumer_mask);
@@ -187,11 +190,17 @@ LightFit light_of(const StageResults& stages, std::uint32_t light) {
     fit.layers = request.map.view_count;
     fit.cube = shadow::map_texture(item, request) == gl::TextureKind::cube;
     if (fit.cube) fit.cube_from_world = glm::transpose(glm::mat3_cast(shadow::cube_turn()));
-    for (const ShadowView& view : stages.fitted.views_of(light))
-        if (!view.lit) fit.edge_error_px = std::max(fit.edge_error_px, view.error.edge_px);
-    fit.meets_target = shadow::meets_target(fit.edge_error_px, shadow::target_error_px(item.shadow));
-    if (fit.status == Status::fitted && !fit.meets_target && item.shadow.max_error_px > 0.0f)
-        fit.status = Status::error_above_target;
+    for (const ShadowView& view : stages.fitted.views_of(light)) {
+        if (view.lit) continue;
+        const shadow::MapAccuracy maps = shadow::accuracy_of(view);
+        fit.edge_error_px = std::max(fit.edge_error_px, maps.edge_px);
+        fit.resolved_px = std::max(fit.resolved_px, maps.resolved_px);
+        fit.resolved_m = std::max(fit.resolved_m, view.error.resolved_m);
+    }
+    fit.meets_target =
+        shadow::meets_target(fit.edge_error_px, shadow::texel_target_px(item.shadow, request.map.filter));
+    const bool has_target = shadow::targets_of(item.shadow) != shadow::AccuracyTargets{};
+    if (fit.status == Status::fitted && !fit.meets_target && has_target) fit.status = Status::error_above_target;
     fit.blend = static_cast<double>(request.map.cascade_blend);
     fit.faces_share = request.projection.cube_blend_eighths / 8.0;
     return fit;

@@ -73,6 +73,7 @@ LightShadow shadow_of(const Light& light) {
     out.enabled = light.enabled;
     out.filter = entry(kFilters, light.shadow.filter);
     out.max_error_px = light.shadow.max_error_px;
+    out.narrowest_caster_px = light.shadow.narrowest_caster_px;
     out.resolution_px = light.shadow.resolution_px;
     out.cascades = light.shadow.cascades;
     out.layers = light.layers;

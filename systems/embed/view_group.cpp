@@ -57,10 +57,14 @@ LightStatus ViewGroups::status(std::uint32_t light) const {
             sum.reason = report.reason;
             sum.filter = report.filter.filter;
             sum.keeps_max_error = report.keeps_max_error;
+            sum.resolved.keeps_narrowest = report.resolved.keeps_narrowest;
         }
         is_first = false;
         sum.predicted_error_px = std::max(sum.predicted_error_px, report.predicted_error_px);
         sum.keeps_max_error = sum.keeps_max_error && (report.keeps_max_error || !shows);
+        sum.resolved.px = std::max(sum.resolved.px, report.resolved.px);
+        sum.resolved.m = std::max(sum.resolved.m, report.resolved.m);
+        sum.resolved.keeps_narrowest = sum.resolved.keeps_narrowest && (report.resolved.keeps_narrowest || !shows);
         sum.maps += report.counts.views;
         sum.maps_drawn += report.counts.views_drawn;
         sum.draws += report.counts.draws;

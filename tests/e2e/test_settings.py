@@ -21,6 +21,10 @@ class Settings(GameTest):
         for name in small:
             self.assertEqual(large[name]["texels"], 16 * small[name]["texels"], name)
             self.assertGreater(large[name]["bytes"], small[name]["bytes"], name)
+            self.assertGreater(small[name]["resolved_px"], large[name]["resolved_px"], name)
+            self.assertGreater(small[name]["resolved_m"], large[name]["resolved_m"], name)
+        small, large = (self.lights_of("--set", "filter=hard", "--set", "resolution=%d" % n) for n in (128, 512))
+        for name in small:
             self.assertGreater(small[name]["predicted_error_px"], large[name]["predicted_error_px"], name)
 
     def test_a_hard_filter_knows_only_lit_and_dark(self):
@@ -79,8 +83,14 @@ class Settings(GameTest):
     def test_a_word_that_no_usual_map_keeps_is_kept_by_another_filter(self):
         for name, light in self.lights_of("--set", "max_error_px=0.25").items():
             self.assertEqual((light["filter"]["name"], light["filter"]["reason"]), ("exact", "map_too_coarse"), name)
-            self.assertGreater(light["filter"]["usual_error_px"], 1.25, name)
+            self.assertGreater(light["filter"]["usual_error_px"], 0.25, name)
             self.assertTrue(light["keeps_max_error"], name)
+        for name, light in self.lights_of("--set", "max_error_px=1").items():
+            self.assertEqual((light["filter"]["name"], light["keeps_max_error"]), ("triangles", True), name)
+        for name, light in self.lights_of("--set", "narrowest_caster_px=0.05").items():
+            self.assertEqual((light["filter"]["name"], light["filter"]["reason"]), ("exact", "map_too_coarse"), name)
+            self.assertGreater(light["filter"]["usual_resolved_px"], 0.05, name)
+            self.assertTrue(light["keeps_narrowest_caster"], name)
         for name, light in self.lights_of().items():
             self.assertEqual((light["filter"]["name"], light["filter"]["reason"]), ("triangles", "none"), name)
 

@@ -54,7 +54,7 @@ protected:
             const LightReport& light = report(i);
             if (light.counts.views == 0) continue;
             // A map that shrank in this very frame is fitted for its size in the next one.
-            if (std::uint64_t{bounds.map_px(i)} * bounds.map_px(i) * light.view_count != light.counts.texels) {
+            if (std::uint64_t{bounds.map_px(i)} * bounds.map_px(i) * light.views.count != light.counts.texels) {
                 ++seen.unsettled;
                 continue;
             }

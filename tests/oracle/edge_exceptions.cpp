@@ -1,12 +1,13 @@
 #include "tests/oracle/edge_exceptions.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "tests/oracle/answers.h"
 #include "tests/oracle/parallel_rows.h"
+#include "tests/oracle/texel_footprint.h"
 
 namespace gnomon::oracle {
 namespace {
@@ -15,35 +16,6 @@ constexpr double kStepPx = 0.25;
 /// Between rays over a footprint, along each of its sides: what is thinner can still lie before a texel's middle, and
 /// be all that the map knows of its surroundings.
 constexpr double kRayStepTexel = 0.25;
-/// Vertices snap to this part of a texel, or pixel (rasterisers with 8 sub-texel bits).
-constexpr double kRasterSnap = 1.0 / 256.0;
-
-/// A texel on a plane: its sides, carried along the ray.
-struct Footprint {
-    glm::dvec3 middle, u_m, v_m, normal, ray;
-    glm::dvec3 at(double u_texel, double v_texel) const {
-        const glm::dvec3 across = u_m * u_texel + v_m * v_texel;
-        return middle + across - ray * (glm::dot(across, normal) / glm::dot(ray, normal));
-    }
-};
-
-/// Answers to a fixed number of questions, each found when it is first asked for; by any number of threads.
-class Answers {
-public:
-    explicit Answers(std::size_t count) : known_(count) {}
-    template <class Find>
-    bool get(std::size_t question, const Find& find) {
-        constexpr std::uint8_t kUnknown = 0, kNo = 1, kYes = 2;
-        std::atomic<std::uint8_t>& known = known_[question];
-        std::uint8_t answer = known.load(std::memory_order_relaxed);
-        if (answer == kUnknown) known.store(answer = find() ? kYes : kNo, std::memory_order_relaxed);
-        return answer == kYes;
-    }
-
-private:
-    std::vector<std::atomic<std::uint8_t>> known_;
-};
-
 /// Places lie close together, and so do the steps of a search from them: what it asks of pixels is found once for each.
 class Judge {
 public:
@@ -111,9 +83,8 @@ private:
         if (!truth_.scored[pixel]) return false;
         const glm::dvec3 &middle = hits_.position_rel_m[pixel], &n = hits_.normal_ws[pixel];
         const TexelThere texel = texel_at_(middle, n);
-        Footprint f{middle, texel.u_m, texel.v_m, n, to_light(middle)};
-        const double rise_m = (std::abs(glm::dot(f.u_m, n)) + std::abs(glm::dot(f.v_m, n))) / glm::dot(f.ray, n);
-        const double least_m = dark ? 2.0 * (texel.filter_texel + kRasterSnap) * rise_m + texel.depth_m : 0.0;
+        const Footprint f{middle, texel.u_m, texel.v_m, n, toward(light_, consumer_, hits_, middle)};
+        const double least_m = dark ? f.least_m(texel) : 0.0;
         const int to_each_side = static_cast<int>(std::ceil(texel.reach_texel / kRayStepTexel));
         const double step_texel = texel.reach_texel / std::max(to_each_side, 1);
         for (int i = -to_each_side; i <= to_each_side; ++i)
@@ -122,11 +93,6 @@ private:
                     dark)
                     return false;
         return true;
-    }
-
-    glm::dvec3 to_light(const glm::dvec3& point_rel_m) const {
-        if (light_.kind == LightKind::directional) return light_.rotation_ws[2];
-        return glm::normalize(light_.position_ws_m - consumer_.position_ws_m + hits_.camera_rel_m - point_rel_m);
     }
 
     const ReferenceTracer& tracer_;

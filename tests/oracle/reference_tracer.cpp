@@ -11,6 +11,8 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Share of the distance of a caster behind which the next one is searched.
+constexpr double kLeftBehind = 1.0e-9;
 
 // One light over one picture.
 struct LightTracer {
@@ -138,6 +140,33 @@ std::uint32_t ReferenceTracer::blocker(const glm::dvec3& point_rel_m, std::uint3
     const glm::dvec3 rest = parallel ? to_light : to_light * (1.0 - least_m / distance_m);
     return world_->traced.occluder(make_ray(start, rest), parallel ? kInfinity : 1.0, triangle, kNoTriangle,
                                    light.shadow.layers);
+}
+
+std::uint32_t ReferenceTracer::nearest_to_light(const glm::dvec3& point_rel_m, std::uint32_t triangle,
+                                                const LightItem& light, double least_m) const {
+    std::uint32_t nearest = kNoTriangle;
+    // Each caster found is left behind, and the next one searched from its plane.
+    for (std::uint32_t found = blocker(point_rel_m, triangle, light, least_m); found != kNoTriangle;
+         found = blocker(point_rel_m, found, light, least_m)) {
+        const WorldTriangle& t = world_->traced.triangles()[found];
+        const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+        const glm::dvec3 ray = light.kind == LightKind::directional
+                                   ? light.rotation_ws[2]
+                                   : glm::normalize(light.position_ws_m - world_->traced.origin_ws_m() - point_rel_m);
+        const double there_m = glm::dot(t.a - point_rel_m, normal) / glm::dot(ray, normal);
+        nearest = found;
+        if (!(there_m * (1.0 + kLeftBehind) > least_m)) break;
+        least_m = there_m * (1.0 + kLeftBehind);
+    }
+    return nearest;
+}
+
+bool ReferenceTracer::faces(std::uint32_t triangle, const LightItem& light) const {
+    const WorldTriangle& t = world_->traced.triangles()[triangle];
+    const glm::dvec3 to_light = light.kind == LightKind::directional
+                                    ? light.rotation_ws[2]
+                                    : light.position_ws_m - world_->traced.origin_ws_m() - t.a;
+    return glm::dot(glm::cross(t.b - t.a, t.c - t.a), to_light) > 0.0;
 }
 
 std::vector<std::uint8_t> ReferenceTracer::ambiguous(const PrimaryHits& hits, const LightItem& light) const {

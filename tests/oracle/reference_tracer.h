@@ -100,6 +100,13 @@ public:
         return blocker(point_rel_m, triangle, light, least_m) != kNoTriangle;
     }
 
+    /// Returns that caster's triangle which is nearest to the light: what a map shows there.
+    std::uint32_t nearest_to_light(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
+                                   double least_m) const;
+
+    /// Returns true if the light shines on the side of the triangle from which its corners run counter-clockwise.
+    bool faces(std::uint32_t triangle, const LightItem& light) const;
+
     /// Returns true if the surface at that place of the picture lies on the plane of `triangle`.
     bool sees_plane(const ConsumerItem& consumer, const glm::dvec2& at_px, std::uint32_t triangle) const;
 

@@ -58,7 +58,7 @@ void duelling_checks() {
         stages.run();
         EXPECT_GT(expect_sound(w, "a sun along the view"), 100u);
         // Lloyd's m, bounded: orthographic cascades cannot be worse than their slice is deep.
-        for (const auto* view : stages.views()) EXPECT_LT(view->error.edge_px, 10.0);
+        for (const auto* view : stages.views()) EXPECT_LT(view->error.texel_edge_px, 10.0);
     }
 }
 

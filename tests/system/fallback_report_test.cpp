@@ -56,13 +56,24 @@ protected:
             EXPECT_THAT(drawn(), IsEmpty());
             EXPECT_EQ(lamp().filter.filter, ShadowFilter::automatic);
             EXPECT_EQ(lamp().predicted_error_px, 0.0);
-            EXPECT_EQ(lamp().counts.views + lamp().view_count, 0u);
+            EXPECT_EQ(lamp().counts.views + lamp().views.count, 0u);
             EXPECT_FALSE(lamp().keeps_max_error);
+            EXPECT_EQ(lamp().resolved.px + lamp().resolved.m, 0.0);
+            EXPECT_FALSE(lamp().resolved.keeps_narrowest);
             return;
         }
         EXPECT_THAT(drawn(), ElementsAre(name_of(lamp().filter.filter)));
         if (shadow::filter_row(lamp().filter.filter).rays) {
             EXPECT_EQ(lamp().predicted_error_px, 0.0);
+            EXPECT_TRUE(lamp().keeps_max_error);
+            EXPECT_EQ(lamp().resolved.px + lamp().resolved.m, 0.0);
+            return;
+        }
+        EXPECT_GT(lamp().resolved.px, 0.0);
+        EXPECT_GT(lamp().resolved.m, 0.0);
+        EXPECT_TRUE(lamp().resolved.keeps_narrowest) << "none is set";
+        if (shadow::filter_row(lamp().filter.filter).storage.triangle_ids) {
+            EXPECT_GT(lamp().predicted_error_px, 0.5) << "half a pixel of the picture's, and more";
             EXPECT_TRUE(lamp().keeps_max_error);
         } else {
             EXPECT_GT(lamp().predicted_error_px, 1.0) << "the picture's own pixel, and more";
@@ -179,7 +190,7 @@ TEST_F(FallbackReport, SaysThatALightIsLitThatLosesItsMapAndItsRays) {
 TEST_F(FallbackReport, SaysOfOneTapWhatALightOfOneTapSays) {
     const ecs::Entity own = add_light(LightKind::spot, kHard);
     step();
-    const double own_px = lamp().predicted_error_px;
+    const double own_px = lamp().predicted_error_px, resolved_m = lamp().resolved.m;
     EXPECT_FALSE(lamp().keeps_max_error) << "a map this coarse does not";
     world.registry.destroy(own);
     const ecs::Entity exact = add_light(LightKind::spot, kExact);
@@ -194,6 +205,7 @@ TEST_F(FallbackReport, SaysOfOneTapWhatALightOfOneTapSays) {
         start();
         step();
         EXPECT_NEAR(lamp().predicted_error_px, own_px, 0.2 * own_px) << name_of(filter);
+        EXPECT_NEAR(lamp().resolved.m, resolved_m, 0.2 * resolved_m) << name_of(filter);
         EXPECT_FALSE(lamp().keeps_max_error) << name_of(filter);
         device.stop_failing();
         world.registry.destroy(entity);

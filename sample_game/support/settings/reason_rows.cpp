@@ -16,7 +16,7 @@ constexpr ReasonRow kRows[] = {
     {Reason::below_display_step, "skipped", ""},
     {Reason::content_unchanged, "reused", "if the shadow is old: announce the change"},
     {Reason::refresh_held, "reused", "lower refresh_error_px, or raise the budget"},
-    {Reason::map_too_coarse, "in filter", "raise max_error_px, or name a filter, if that costs too much"},
+    {Reason::map_too_coarse, "in filter", "raise max_error_px or narrowest_caster_px, or name a filter, if that costs too much"},
     {Reason::visibility_kept, "in kept", ""},
     {Reason::resolution_clamped, "degraded", "request less"},
     {Reason::over_budget, "skipped", "raise the budget, or use fewer lights"},

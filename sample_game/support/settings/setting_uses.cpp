@@ -83,6 +83,7 @@ constexpr std::array kBasic{
     SettingUse{"enabled"},
     SettingUse{"filter"},
     SettingUse{"max_error_px"},
+    SettingUse{"narrowest_caster_px"},
     SettingUse{"source_radius_m", for_lamp_source,
                "a spot or point light with filter pcss, pcss_moments or exact_soft"},
     SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments or exact_soft"},

@@ -81,7 +81,7 @@ std::uint32_t needed_px(const LightItem& light, const ShadowRequest& wanted, con
     if (!adapts_to_target(light, wanted)) return wanted.limits.max_px;
     const double edge_texel = static_cast<double>(wanted.map.filtering.widest_texel - wanted.map.filtering.still_texel);
     return target_size_px(fitted.map.resolution_px, false, edge_error_px(extent_px, edge_texel),
-                          target_error_px(light.shadow), wanted.limits.max_px);
+                          texel_target_px(light.shadow, wanted.map.filter), wanted.limits.max_px);
 }
 
 BudgetReport outcome(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors) {

@@ -16,6 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Points on the border of a view count as inside. Share of its sides.
 constexpr double kSlack = 1.0 / (1 << 20);
+/// Error of a position that is rebuilt from depth, as a share of its distance (shaders/common/position_error.glsl).
+constexpr double kPosition = 1.6e-7;
 
 bool is_perspective(const ConsumerItem& consumer) { return consumer.projection == CameraProjection::perspective; }
 
@@ -87,8 +89,10 @@ ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, st
         error.texel_m = std::max(error.texel_m, texel_m);
         error.extent_px = std::max(error.extent_px, texel_m * metre_px);
         error.metre_px = std::max(error.metre_px, metre_px);
+        error.rounding_px = std::max(error.rounding_px, kPosition * served_m * metre_px);
     }
-    if (error.texel_m > 0.0) error.edge_px = edge_error_px(error.extent_px, reach_texel);
+    if (error.texel_m > 0.0) error.texel_edge_px = edge_error_px(error.extent_px, reach_texel);
+    error.resolved_m = resolved_width_texel(reach_texel) * error.texel_m;
     return error;
 }
 
@@ -130,12 +134,26 @@ double stated_error_px(const ShadowView& view, double cosine, double reach_texel
     return edge_error_px(view.error.extent_px * slope_factor(cosine), reach_texel);
 }
 
+MapAccuracy accuracy_of(const ShadowView& view) {
+    const ViewError& error = view.error;
+    if (!(error.texel_edge_px > 0.0)) return {};
+    return {error.edge_px, error.grid_px, resolved_px(error.texel_edge_px)};
+}
+
+void state_edges(bool walks, ShadowView& view) {
+    ViewError& error = view.error;
+    error.grid_px = walks ? 0.0 : std::min(edge_error_px(0.0, 0.0), error.texel_edge_px);
+    error.edge_px = walks && error.texel_edge_px > 0.0 ? walk_error_px(error.rounding_px) : error.texel_edge_px;
+}
+
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view) {
     const ViewError error = predict_error(view, consumer, points_ws, reach_texel);
     view.error.texel_m = std::max(view.error.texel_m, error.texel_m);
     view.error.extent_px = std::max(view.error.extent_px, error.extent_px);
-    view.error.edge_px = std::max(view.error.edge_px, error.edge_px);
+    view.error.texel_edge_px = std::max(view.error.texel_edge_px, error.texel_edge_px);
+    view.error.resolved_m = std::max(view.error.resolved_m, error.resolved_m);
+    view.error.rounding_px = std::max(view.error.rounding_px, error.rounding_px);
     view.error.metre_px = std::max(view.error.metre_px, error.metre_px);
 }
 

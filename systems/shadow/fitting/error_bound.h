@@ -46,13 +46,20 @@ double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, con
                        const glm::dvec3& normal);
 
 /// Returns the error bound that the view states for receivers with this cosine between normal and direction to the
-/// light, pixels. It is ViewError::edge_px within 60 degrees. Beyond, the texel's share grows as 1 / cosine. No visible
-/// receiver point that the view serves has a larger edge_error_px.
+/// light, pixels. It is ViewError::texel_edge_px within 60 degrees. Beyond, the texel's share grows as 1 / cosine. No
+/// visible receiver point that the view serves has a larger edge_error_px.
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel);
 
 /// Raises the error that the view states (ViewError) to the bound over all its receivers. `points_ws`: corners of
 /// convex parts of what is seen of them; points outside a perspective view do not count.
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view);
+
+/// Returns what the view states of its maps.
+MapAccuracy accuracy_of(const ShadowView& view);
+
+/// States the bound on the error of edges of casters that the view resolves (ViewError::edge_px). `walks`: its filter
+/// walks the triangles of all of its casters; otherwise texels decide.
+void state_edges(bool walks, ShadowView& view);
 
 }  // namespace gnomon::shadow

@@ -65,7 +65,7 @@ double depth_step_m(const ShadowView& view, DepthFormat format) {
 
 double predicted_px(std::span<const ShadowView> views) {
     double worst_px = 0.0;
-    for (const ShadowView& view : views) worst_px = std::max(worst_px, view.error.edge_px);
+    for (const ShadowView& view : views) worst_px = std::max(worst_px, view.error.texel_edge_px);
     return worst_px;
 }
 
@@ -91,7 +91,7 @@ bool settle_size(const LightItem& light, std::span<const ShadowView> views, cons
                  FittedSizes& fitted, std::uint32_t& downsize_frames, ShadowRequest& request) {
     if (views.empty() || !adapts_to_target(light, request)) return false;
     const bool is_held = request.map.resolution_px == held.size.map_px;
-    const double target_px = target_error_px(light.shadow), error_px = predicted_px(views);
+    const double target_px = texel_target_px(light.shadow, request.map.filter), error_px = predicted_px(views);
     fitted.note(request.map.resolution_px, meets_target(error_px, target_px));
     const std::uint32_t wish_px =
         target_size_px(request.map.resolution_px, is_held, error_px, target_px, request.limits.max_px);
@@ -212,7 +212,9 @@ bool LightFit::fit_size(const LightFitHistory& held, LightFitHistory& next) {
     return fitted;
 }
 
-bool LightFit::has_met_target() const { return meets_target(predicted_px(views()), target_error_px(light_.shadow)); }
+bool LightFit::has_met_target() const { return meets_target(predicted_px(views()), target_px()); }
+
+double LightFit::target_px() const { return texel_target_px(light_.shadow, out_.lights[index_].request.map.filter); }
 
 /// Counts the moves of the views since their number was last chosen. Returns true if a search for another number of
 /// cascades is due.
@@ -242,8 +244,7 @@ bool LightFit::choose_count(const LightFitHistory& held, LightFitHistory& next) 
         trials[tried++] = {count, predicted_px(views()), count * edge_px * edge_px};
         if (count == most) break;
     }
-    const std::uint32_t chosen =
-        choose_cascades(std::span(trials).first(tried), held.count.cascades, target_error_px(light_.shadow));
+    const std::uint32_t chosen = choose_cascades(std::span(trials).first(tried), held.count.cascades, target_px());
     const bool stays = chosen == held.count.cascades;
     const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
     next.count.cascades = chosen;
@@ -275,6 +276,13 @@ void LightFit::select_sets_again() {
     choice.resized = true;
 }
 
+/// Returns whether the filter treats any caster of the view by depth, because its triangles are unknown.
+bool LightFit::has_casters_by_depth(const ShadowView& view) const {
+    const auto casters = out_.casters_of(view);
+    return scene_.any_by_depth &&
+           std::any_of(casters.begin(), casters.end(), [&](std::uint32_t i) { return scene_.instances[i].by_depth; });
+}
+
 /// Selects the casters of each view. A cube's face may be drawn without casters: a filter that reads across seams must
 /// find it empty.
 Reason LightFit::select_casters() {
@@ -290,6 +298,7 @@ Reason LightFit::select_casters() {
         const CasterInputs inputs{out_.sets_of(inputs_.sets, index_), request.map.filtering, inputs_.moving};
         select_view_casters(scene_, inputs, view, storage_.sets, out_.casters);
         view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;
+        state_edges(filter_row(request.map.filter).storage.triangle_ids && !has_casters_by_depth(view), view);
         any = any || view.casters.count > 0;
     }
     return any ? Reason::none : Reason::no_caster;  // no caster where its shadow would be seen

@@ -65,6 +65,8 @@ private:
     bool fit_once(const LightFitHistory& held, LightFitHistory& next);
     bool fit_size(const LightFitHistory& held, LightFitHistory& next);
     bool has_met_target() const;
+    double target_px() const;
+    bool has_casters_by_depth(const ShadowView& view) const;
     bool count_moves(const LightFitHistory& held, LightFitHistory& next) const;
     bool choose_count(const LightFitHistory& held, LightFitHistory& next);
     bool fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& held, LightFitHistory& next);

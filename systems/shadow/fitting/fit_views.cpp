@@ -10,8 +10,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Fit of one light with the filter that its accuracy target needs. The default filter is fitted first, because the
-/// choice depends on that fit's error. Lights without a target, or limited by a budget, keep their filter.
+/// Fit of one light with the filter that its targets need. The default filter is fitted first, because the choice
+/// depends on that fit's accuracy. Lights without a target, or limited by a budget, keep their filter.
 class TargetFit {
 public:
     TargetFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, const LightFitHistory& held,
@@ -23,7 +23,7 @@ public:
           held_(held),
           choice_(out.lights[light]),
           fit_(scene, inputs, light, storage, out),
-          target_px_(target_error_px(light_.shadow)) {}
+          targets_(targets_of(light_.shadow)) {}
 
     /// Fits the light. Returns why it has no views; Reason::none: it has some.
     Reason run(LightFitHistory& next) {
@@ -47,61 +47,76 @@ private:
         fit_.request_anew(request_with(scene_, choice_.request.limits.device_px, &fresh, index_, filter));
         return fit(fresh, next);
     }
-    /// Returns the largest error of all views that are looked up, pixels.
-    double worst_px() const {
+    /// Returns the accuracy over all views that are looked up. One view may have the worst edges, and another the
+    /// widest texels.
+    MapAccuracy accuracy() const {
+        MapAccuracy worst;
+        for (const ShadowView& view : fit_.views()) {
+            if (view.lit || !(view.error.edge_px > 0.0)) continue;
+            const MapAccuracy own = accuracy_of(view);
+            if (own.edge_px - own.grid_px > worst.edge_px - worst.grid_px || worst.edge_px == 0.0) {
+                worst.edge_px = own.edge_px;
+                worst.grid_px = own.grid_px;
+            }
+            worst.resolved_px = std::max(worst.resolved_px, own.resolved_px);
+        }
+        return worst;
+    }
+    /// Returns the largest error of edges by texels, pixels. While it stays, the visible scene is unchanged.
+    double seen_px() const {
         double worst = 0.0;
         for (const ShadowView& view : fit_.views())
-            if (!view.lit) worst = std::max(worst, view.error.edge_px);
+            if (!view.lit) worst = std::max(worst, view.error.texel_edge_px);
         return worst;
     }
 
     Reason run_usual(LightFitHistory& next) {
         const Reason reason = fit(held_, next);
         if (reason != Reason::none || !(held_.budget.grant == QualityLimits{})) return reason;
-        ShadowFilter chosen = chosen_filter(held_.filter, worst_px(), target_px_);
+        ShadowFilter chosen = chosen_filter(held_.filter, accuracy(), targets_);
         const bool turns = chosen == kExactFilter && held_.filter.filter != kExactFilter;
         if (turns && choice_.request.limits.max_views > 0) {  // another number of cascades may meet the target
             const Reason recounted = fit(held_, next, true);
             if (recounted != Reason::none) return recounted;
-            chosen = chosen_filter(held_.filter, worst_px(), target_px_);
+            chosen = chosen_filter(held_.filter, accuracy(), targets_);
         }
         if (chosen == kDefaultFilter) {
-            next.filter = {kDefaultFilter, target_px_};
+            next.filter = {kDefaultFilter, targets_, {}};
             return Reason::none;
         }
-        const double usual_px = worst_px();
+        const MapAccuracy usual = accuracy();
         if (!turns || inputs_.budget_active) {  // the ray budget leaves it none, or may
-            next.filter = {kExactFilter, target_px_, usual_px};
+            next.filter = {kExactFilter, targets_, usual};
             return Reason::none;
         }
         const Reason kept = fit_anew(kExactFilter, next);
-        note_exact(usual_px, false, next);
+        note_exact(usual, false, next);
         return kept;
     }
 
     Reason run_exact(LightFitHistory& next) {
-        double usual_px = held_.filter.usual_px;
+        MapAccuracy usual = held_.filter.usual;
         bool passed = false;
-        if (is_trial_due(held_.filter, target_px_)) {
+        if (is_trial_due(held_.filter, targets_)) {
             const ShadowRequest own = choice_.request;
             const Reason reason = fit_anew(kDefaultFilter, next);
             if (reason == Reason::none) {
-                usual_px = worst_px();
-                passed = chosen_filter(held_.filter, usual_px, target_px_) == kDefaultFilter;
+                usual = accuracy();
+                passed = chosen_filter(held_.filter, usual, targets_) == kDefaultFilter;
             }
-            if (passed && comes_back(held_.filter, target_px_)) next.filter = {kDefaultFilter, target_px_};
+            if (passed && comes_back(held_.filter, targets_)) next.filter = {kDefaultFilter, targets_, {}};
             if (next.filter.filter == kDefaultFilter && !inputs_.budget_active) return reason;
             fit_.request_anew(own);
         }
         const Reason reason = fit(held_, next);
-        choice_.default_filter_error_px = usual_px;
-        if (next.filter.filter == kExactFilter) note_exact(usual_px, passed, next);
+        choice_.default_filter = usual;
+        if (next.filter.filter == kExactFilter) note_exact(usual, passed, next);
         return reason;
     }
 
-    void note_exact(double usual_px, bool passed, LightFitHistory& next) {
-        next.filter = exact_history(held_.filter, usual_px, passed, worst_px(), target_px_);
-        choice_.default_filter_error_px = usual_px;
+    void note_exact(const MapAccuracy& usual, bool passed, LightFitHistory& next) {
+        next.filter = exact_history(held_.filter, usual, passed, seen_px(), targets_);
+        choice_.default_filter = usual;
     }
 
     const SceneSnapshot& scene_;
@@ -111,7 +126,7 @@ private:
     const LightFitHistory& held_;
     FitChoice& choice_;
     LightFit fit_;
-    double target_px_;
+    AccuracyTargets targets_;
 };
 
 }  // namespace

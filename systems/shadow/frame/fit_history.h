@@ -80,14 +80,29 @@ struct SampledSplitHistory {
     bool operator==(const SampledSplitHistory&) const = default;
 };
 
-/// Filter that the accuracy target chose for a light (filter_choice.h).
+/// What is stated of a light's maps, pixels. All 0: there are none.
+struct MapAccuracy {
+    double edge_px = 0.0;      // bound on the error of edges of casters that they resolve
+    double grid_px = 0.0;      // part of it that the picture's pixel grid causes, whatever the maps
+    double resolved_px = 0.0;  // width of a caster that they resolve
+    bool operator==(const MapAccuracy&) const = default;
+};
+
+/// Targets of a light's maps, as LightShadow has them, pixels. 0: none.
+struct AccuracyTargets {
+    double error_px = 0.0;      // max_error_px
+    double narrowest_px = 0.0;  // narrowest_caster_px
+    bool operator==(const AccuracyTargets&) const = default;
+};
+
+/// Filter that a light's targets chose for it (filter_choice.h).
 struct FilterHistory {
-    ShadowFilter filter = ShadowFilter::automatic;  // automatic: no choice yet, or the target does not choose it
-    double target_px = 0.0;                         // target of the choice
-    double usual_px = 0.0;                          // error of the default filter's maps when these were last fitted
+    ShadowFilter filter = ShadowFilter::automatic;  // automatic: no choice yet, or the targets do not choose it
+    AccuracyTargets targets;                        // targets of the choice
+    MapAccuracy usual;                              // accuracy of the default filter's maps when these were last fitted
     double seen_px = 0.0;      // error of the last fit's own maps; while it is equal, the visible scene is unchanged
     std::uint32_t frames = 0;  // frames until the default filter is fitted again; 0: not before seen_px changes
-    std::uint32_t passed = 0;  // consecutive frames in which the default filter met the target
+    std::uint32_t passed = 0;  // consecutive frames in which the default filter met the targets
     bool operator==(const FilterHistory&) const = default;
 };
 

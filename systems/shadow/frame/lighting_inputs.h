@@ -57,6 +57,7 @@ struct LookupAccuracy {
     ShadowFilter filter = ShadowFilter::automatic;  // automatic: there is nothing to look up
     double predicted_error_px = 0.0;                // largest over its views, pixels; 0: none shows an edge
     bool keeps_max_error = false;                   // it meets LightShadow::max_error_px
+    ResolvedWidth resolved = {};                    // largest over its views
     bool operator==(const LookupAccuracy&) const = default;
 };
 

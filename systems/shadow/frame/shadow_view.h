@@ -46,12 +46,18 @@ struct ServedDistances {
     double fades_to_m = 0.0;    // end of the fade, unless the map's border lies farther away
 };
 
-/// Size of a view's texels on the screen of the camera that sees them largest (fitting/error_bound.h).
+/// Accuracy of a view, and the size of its texels on the screen of the camera that sees them largest
+/// (fitting/error_bound.h). All 0: it shows no receiver.
 struct ViewError {
     double texel_m = 0.0;    // largest diagonal of a texel across the light, at a receiver
     double extent_px = 0.0;  // longest extent of a texel on screen: aliasing error m (Lloyd et al. 2006)
-    double edge_px = 0.0;    // bound on the error of a shadow edge on screen
-    double metre_px = 0.0;   // longest extent on screen of a metre across the light, on a receiver
+    /// Bound on the error on screen of an edge that texels decide, wherever it is. The size of maps follows it.
+    double texel_edge_px = 0.0;
+    double rounding_px = 0.0;  // on screen: how far off positions are that the picture rebuilds from its depths
+    double edge_px = 0.0;      // bound on the error on screen of edges of resolved casters, by the view's own filter
+    double grid_px = 0.0;      // part of edge_px that the picture's pixel grid causes by itself
+    double resolved_m = 0.0;   // width of a caster, at its receiver across the light, that the map resolves
+    double metre_px = 0.0;     // longest extent on screen of a metre across the light, on a receiver
 };
 
 /// Struct 4. Shadow view: one depth map of a cascade, a spot or a cube face. All double-precision geometry ends here.
@@ -92,9 +98,9 @@ struct FitChoice {
     IndexRange views;       // into FittedViews::views; empty: it has none
     LightSets sets;         // sets of the last fit of its views
     bool resized = false;   // `sets` refers to FittedViews::resized_sets instead of the culling stage's arrays
-    /// Error of the default filter's maps where it missed the target, pixels: another filter was chosen. 0: the default
-    /// filter was chosen.
-    double default_filter_error_px = 0.0;
+    /// Accuracy of the default filter's maps where it missed a target: another filter was chosen. 0: the default filter
+    /// was chosen.
+    MapAccuracy default_filter;
     std::uint32_t fits = 0;  // number of fits made for the choice (kMaxFits)
 };
 

@@ -8,22 +8,38 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Returns the predicted error, pixels. The fit predicts it for the request's own filter, so that another filter's
-/// follows from its radius.
-double planned_error_px(const ShadowView& view, ShadowFilter own, ShadowFilter filter) {
-    if (filter == own || !(view.error.edge_px > 0.0)) return view.error.edge_px;
+/// Returns the view as another filter reads it. The fit states its errors for the request's own filter, so that
+/// another's follow from its radius.
+ShadowView read_by(const ShadowView& view, ShadowFilter own, ShadowFilter filter) {
+    ShadowView read = view;
+    if (filter == own || !(view.error.texel_edge_px > 0.0)) return read;
     const FilterRow& row = filter_row(filter);
-    return edge_error_px(view.error.extent_px, static_cast<double>(row.reach_texel - row.still_texel));
+    const auto reach_texel = static_cast<double>(row.reach_texel - row.still_texel);
+    read.error.texel_edge_px = edge_error_px(view.error.extent_px, reach_texel);
+    read.error.resolved_m = resolved_width_texel(reach_texel) * view.error.texel_m;
+    state_edges(false, read);
+    return read;
 }
 
-/// Returns the error in the map as drawn, pixels: with fewer texels than planned, and with earlier casters.
-double shown_error_px(const DrawnViews& drawn, std::size_t v, ShadowFilter filter) {
+/// Returns the view with texels that are `times` as large.
+ShadowView coarsened(const ShadowView& view, double times) {
+    ShadowView coarse = view;
+    ViewError& error = coarse.error;
+    const bool walks = error.grid_px == 0.0;
+    const double grid_px = edge_error_px(0.0, 0.0);
+    error.extent_px *= times;
+    error.resolved_m *= times;
+    if (error.texel_edge_px > 0.0) error.texel_edge_px = (error.texel_edge_px - grid_px) * times + grid_px;
+    state_edges(walks, coarse);
+    return coarse;
+}
+
+/// Returns the view as its map was drawn: with fewer texels than planned, perhaps.
+ShadowView as_drawn(const DrawnViews& drawn, std::size_t v, ShadowFilter filter) {
     const MapSettings& map = drawn.request_of(v).map;
-    const double planned_px = planned_error_px(drawn.view(v), map.filter, filter);
+    const ShadowView view = read_by(drawn.view(v), map.filter, filter);
     const double texels = static_cast<double>(map.resolution_px) / drawn.maps[v].size_px;
-    const double own_px = edge_error_px(0.0, 0.0);  // the image's own share
-    const double drawn_px = texels > 1.0 ? (planned_px - own_px) * texels + own_px : planned_px;
-    return drawn_px + drawn.updates[v].stale.error_px;
+    return texels > 1.0 ? coarsened(view, texels) : view;
 }
 
 }  // namespace
@@ -45,10 +61,19 @@ ShadowFilter published_filter(const DrawnViews& drawn, std::uint32_t light, bool
 void add_view(const LightItem& light, const DrawnViews& drawn, std::size_t v, LookupAccuracy& accuracy) {
     if (!drawn.has_map(v) || drawn.view(v).lit) return;
     const BudgetDecision& decision = drawn.lights[drawn.view(v).light];
-    accuracy.predicted_error_px = std::max(accuracy.predicted_error_px, shown_error_px(drawn, v, accuracy.filter));
-    accuracy.keeps_max_error = drawn.maps[v].size_px >= map_edge_px(decision.request.map) &&
-                               decision.refresh_frames == 1 &&
-                               meets_target(accuracy.predicted_error_px, target_error_px(light.shadow));
+    const ShadowView view = as_drawn(drawn, v, accuracy.filter);
+    const MapAccuracy maps = accuracy_of(view);
+    const double edge_px = maps.edge_px + drawn.updates[v].stale.error_px;
+    const AccuracyTargets targets = targets_of(light.shadow);
+    const bool is_first = !(accuracy.predicted_error_px > 0.0);
+    const bool as_granted = drawn.maps[v].size_px >= map_edge_px(decision.request.map) && decision.refresh_frames == 1;
+    accuracy.predicted_error_px = std::max(accuracy.predicted_error_px, edge_px);
+    accuracy.keeps_max_error = (is_first || accuracy.keeps_max_error) && as_granted &&
+                               meets_targets({edge_px, maps.grid_px, 0.0}, {target_error_px(light.shadow), 0.0});
+    accuracy.resolved.px = std::max(accuracy.resolved.px, maps.resolved_px);
+    accuracy.resolved.m = std::max(accuracy.resolved.m, view.error.resolved_m);
+    accuracy.resolved.keeps_narrowest = (is_first || accuracy.resolved.keeps_narrowest) && as_granted &&
+                                        meets_targets(maps, {0.0, targets.narrowest_px});
 }
 
 }  // namespace gnomon::shadow

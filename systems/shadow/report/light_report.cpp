@@ -48,8 +48,8 @@ void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t
     const std::uint32_t count = in.drawn.lights[index].request.map.view_count;
     const IndexRange views = in.drawn.fitted.lights[index].views;
     const std::optional<double> view_us = in.times.view_us(light.entity);
-    out.first_view = static_cast<std::uint32_t>(report.views.size());
-    out.view_count = count;
+    out.views.first = static_cast<std::uint32_t>(report.views.size());
+    out.views.count = count;
     for (std::uint32_t layer = 0; layer < count; ++layer) {
         ViewReport& view = report.views.emplace_back();
         view.layer = layer;
@@ -106,11 +106,13 @@ void explain_state(const LightStatus& status, const BudgetDecision& decision, co
 /// Reports the filter that the light is published with. If it replaces the light's own, the status gives the reason.
 FilterReport filter_report(const DrawnViews& drawn, std::uint32_t light, ShadowFilter filter) {
     const ShadowFilter own = drawn.lights[light].request.map.filter;
-    if (filter != own) return {filter, drawn.statuses[light].degraded(), {}};
-    FilterReport out{own, Reason::none, {}};
-    const double default_px = drawn.fitted.lights[light].default_filter_error_px;
-    if (default_px > 0.0) out.reason = Reason::map_too_coarse;
-    if (default_px > 0.0) out.usual_error_px = default_px;
+    if (filter != own) return {filter, drawn.statuses[light].degraded(), {}, {}};
+    FilterReport out{own, Reason::none, {}, {}};
+    const MapAccuracy& usual = drawn.fitted.lights[light].default_filter;
+    if (!(usual.edge_px > 0.0)) return out;
+    out.reason = Reason::map_too_coarse;
+    out.usual_error_px = usual.edge_px;
+    out.usual_resolved_px = usual.resolved_px;
     return out;
 }
 
@@ -166,12 +168,14 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     const bool uses_rays = decision.request.rays.used, exact = uses_rays && in.has_rays;
     const bool trees_changed = report.rays.meshes_written > 0 || report.rays.instances_written;
     if (!exact) out.predicted_error_px = shown.predicted_error_px;
+    if (!exact) out.resolved = shown.resolved;
     lookup.lost = uses_rays && filter == ShadowFilter::automatic;
     lookup.drawn = out.counts.views_drawn > 0 || (exact && trees_changed);
     lookup.skipped_for_rays = is_left_to_rays(in.drawn, i);
     explain_state(status, decision, cached, lookup, out);
-    out.keeps_max_error = (exact && !status.is_skipped()) ||
-                          (shown.keeps_max_error && !exact && cached->allocation.failure == Reason::none);
+    const bool keeps = exact ? !status.is_skipped() : cached && cached->allocation.failure == Reason::none;
+    out.keeps_max_error = keeps && (exact || shown.keeps_max_error);
+    out.resolved.keeps_narrowest = keeps && (exact || shown.resolved.keeps_narrowest);
     const LightSetsView sets = in.drawn.fitted.sets_of(in.sets, i);
     out.why.receivers = sets.ranges.receivers.count;
     out.why.casters = sets.ranges.casters.count;

@@ -5,6 +5,11 @@
 namespace gnomon::shadow {
 namespace {
 
+/// Returns what both of two lookups resolve.
+ResolvedWidth wider(const ResolvedWidth& a, const ResolvedWidth& b) {
+    return {std::max(a.px, b.px), std::max(a.m, b.m), a.keeps_narrowest && b.keeps_narrowest};
+}
+
 /// Describes a light without its shadow, or not drawn at all.
 void add_unshadowed(const LookupFailure& failure, LightReport& report) {
     report.state = LightState::skipped;
@@ -12,7 +17,8 @@ void add_unshadowed(const LookupFailure& failure, LightReport& report) {
     report.filter = {};
     report.predicted_error_px = report.why.stale_px = 0.0;
     report.keeps_max_error = false;
-    report.counts.views = report.view_count = 0;
+    report.resolved = {};
+    report.counts.views = report.views.count = 0;
 }
 
 /// Describes one tap of the light's map in the place of its own row.
@@ -21,10 +27,11 @@ void add_fallback(const LookupFailure& failure, LightReport& report) {
     const bool again = report.filter.filter == plain.filter && report.filter.reason == failure.reason;
     report.state = LightState::degraded;
     report.reason = failure.reason;
-    report.filter = {plain.filter, failure.reason, {}};
+    report.filter = {plain.filter, failure.reason, {}, {}};
     report.predicted_error_px =
         again ? std::max(report.predicted_error_px, plain.predicted_error_px) : plain.predicted_error_px;
     report.keeps_max_error = plain.keeps_max_error && (!again || report.keeps_max_error);
+    report.resolved = again ? wider(report.resolved, plain.resolved) : plain.resolved;
 }
 
 /// Describes a failure on blended surfaces alone: on all others the report holds already.
@@ -33,6 +40,8 @@ void add_blended(const LookupFailure& failure, LightReport& report) {
     report.reason = failure.reason;
     report.predicted_error_px = std::max(report.predicted_error_px, failure.fallback.predicted_error_px);
     report.keeps_max_error = report.keeps_max_error && !failure.unshadowed && failure.fallback.keeps_max_error;
+    report.resolved = wider(report.resolved, failure.fallback.resolved);
+    report.resolved.keeps_narrowest = report.resolved.keeps_narrowest && !failure.unshadowed;
 }
 
 }  // namespace

@@ -22,15 +22,40 @@ double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0
 
 }  // namespace
 
-double edge_error_px(double extent_px, double reach_texel) {
-    constexpr double kSampling_texel = 0.5, kPixelCentres_px = 1.0;
-    return (kSampling_texel + reach_texel) * extent_px + kPixelCentres_px;
+double resolved_width_texel(double reach_texel) {
+    constexpr double kSampling_texel = 0.5;
+    return kSampling_texel + reach_texel;
 }
+
+double edge_error_px(double extent_px, double reach_texel) {
+    constexpr double kPixelCentres_px = 1.0;
+    return resolved_width_texel(reach_texel) * extent_px + kPixelCentres_px;
+}
+
+double walk_error_px(double rounding_px) { return kWalk_px + rounding_px; }
+
+double resolved_px(double texel_edge_px) { return of_texels_px(texel_edge_px) / kSteepestReceiver; }
 
 double slope_factor(double cosine) { return std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0))); }
 
 double target_error_px(const LightShadow& shadow) {
     return shadow.max_error_px > 0.0f ? static_cast<double>(shadow.max_error_px) : 1.0;
+}
+
+double texel_target_px(const LightShadow& shadow, ShadowFilter filter) {
+    const double error_px = target_error_px(shadow), narrowest_px = targets_of(shadow).narrowest_px * kSteepestReceiver;
+    if (!(narrowest_px > 0.0)) return error_px;
+    return filter_row(filter).storage.triangle_ids ? narrowest_px : std::min(error_px, narrowest_px);
+}
+
+AccuracyTargets targets_of(const LightShadow& shadow) {
+    const auto target = [](float px) { return px > 0.0f ? static_cast<double>(px) : 0.0; };
+    return {target(shadow.max_error_px), target(shadow.narrowest_caster_px)};
+}
+
+bool meets_targets(const MapAccuracy& maps, const AccuracyTargets& targets, double share) {
+    return (!(targets.error_px > 0.0) || maps.edge_px - maps.grid_px <= targets.error_px * share) &&
+           (!(targets.narrowest_px > 0.0) || maps.resolved_px <= targets.narrowest_px * share);
 }
 
 bool adapts_to_target(const LightItem& light, const ShadowRequest& request) {

@@ -5,11 +5,14 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_request.h"
 
-/// Accuracy target: maps get the texels that LightShadow::max_error_px needs, and no more.
+/// Accuracy target: maps get the texels that LightShadow::max_error_px and narrowest_caster_px need, and no more.
 ///
-/// The error of an edge is (1/2 + E) m pixels, plus one pixel that the pixel grid causes by itself (error_bound.h). m,
-/// the length of a texel on the screen, shrinks as the map's edge grows. So a fit with maps of any size determines
-/// which size meets the target.
+/// The error of an edge that texels decide is (1/2 + E) m pixels, plus one pixel that the pixel grid causes by itself
+/// (error_bound.h). m, the length of a texel on the screen, shrinks as the map's edge grows. So a fit with maps of any
+/// size determines which size meets the target. A caster as wide as (1/2 + E) texels is resolved by the same map.
+///
+/// Where a filter walks the casters' own triangles, texels decide only which casters count. Its edges are exact within
+/// kWalk_px. Its maps still follow max_error_px where narrowest_caster_px is not set.
 ///
 /// Hysteresis keeps a walking camera from causing new maps often:
 /// - Size: a map grows at once. It shrinks only after half of its edge has met the target for a second.
@@ -34,8 +37,35 @@ double slope_factor(double cosine);
 /// a window that grows by some pixels seldom causes new maps.
 inline constexpr std::uint32_t kLeastMap_px = 256;
 
-/// Returns the target, pixels: max_error_px, or 1 where that is not above 0.
+/// Returns the width of a caster that a map resolves, texels' diagonals. `reach_texel`: E.
+double resolved_width_texel(double reach_texel);
+
+/// Bound on the error of edges of resolved casters, pixels, where a filter walks the casters' triangles. Walks find the
+/// edge itself. Half a pixel is the picture's: it shows an edge between pixel centres. The rest covers what rounding
+/// decides at corners (tests/gl/resolved_edges_gl_test.cpp).
+inline constexpr double kWalk_px = 0.6;
+
+/// Computes that bound where positions of surfaces are off by `rounding_px` on screen.
+double walk_error_px(double rounding_px);
+
+/// Computes the width on screen, at its receiver across the light, of a caster that a map resolves, pixels.
+/// `texel_edge_px`: edge_error_px() of the map on the steepest receiver.
+double resolved_px(double texel_edge_px);
+
+/// Returns the bound on the error of a target, pixels: max_error_px, or 1 where that is not above 0.
 double target_error_px(const LightShadow& shadow);
+
+/// Returns the target for what texels decide, pixels: edge_error_px() beside the pixel grid's own. It follows
+/// max_error_px, and narrowest_caster_px where that is set. `filter`: the light's own, which may need it for one of
+/// them alone.
+double texel_target_px(const LightShadow& shadow, ShadowFilter filter);
+
+/// Returns the light's targets. Negative or NaN: 0.
+AccuracyTargets targets_of(const LightShadow& shadow);
+
+/// Returns true if maps meet the targets, apart from the pixel grid's own error. `share`: factor on both targets. NaN
+/// meets none.
+bool meets_targets(const MapAccuracy& maps, const AccuracyTargets& targets, double share = 1.0);
 
 /// Returns true if the target may make the light's maps smaller than MapLimits::max_px. False where the size is given,
 /// must not depend on visible receivers (ShadowFit::stable), or determines a filter's width (FilterWidth::source).

@@ -113,7 +113,8 @@ float texels_per_pixel(const LightItem& light, const LightFitHistory* held, cons
 
 /// Returns the target that determines the size of maps. 0 for a filter with rays, which is exact at any size.
 float size_target_px(const LightItem& light, const ShadowRequest& request) {
-    return filter_row(request.map.filter).rays ? 0.0f : light.shadow.max_error_px;
+    const ShadowFilter filter = request.map.filter;
+    return filter_row(filter).rays ? 0.0f : static_cast<float>(texel_target_px(light.shadow, filter));
 }
 
 /// Sets the size of the light's maps: the given size, or a size computed from the picture's. Where the size follows the
@@ -136,7 +137,7 @@ std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::u
                           const ShadowRequest& request) {
     const FilterRow& row = filter_row(request.map.filter);
     const std::uint32_t own_px =
-        automatic_resolution(viewport_px, row.texels_per_pixel, light.shadow.max_error_px, limit_px);
+        automatic_resolution(viewport_px, row.texels_per_pixel, size_target_px(light, request), limit_px);
     const std::uint32_t usual_px = automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, limit_px);
     return std::max(std::min(usual_px, kUsualSunMap_px), own_px);
 }

@@ -3,16 +3,14 @@
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// Choice of the filter for ShadowFilter::automatic. It is kDefaultFilter, unless LightShadow::max_error_px is above 0
-/// and no map within the light's limits meets it. Then it is kExactFilter, which has no such error because it traces
-/// rays. Without max_error_px the default filter's maps suffice: rays cost one and a half to three times as much
-/// (docs/results/cost.md).
+/// Choice of the filter for ShadowFilter::automatic. It is kDefaultFilter, unless LightShadow::max_error_px or
+/// narrowest_caster_px is above 0 and no map within the light's limits meets it. Then it is kExactFilter, which has no
+/// such error and loses no caster, because it traces rays. Without targets the default filter's maps suffice: rays cost
+/// one and a half to three times as much (docs/results/cost.md).
 ///
-/// A cheaper filter is never chosen here. The bound of `hard` is that of kDefaultFilter at the same size
-/// (error_bound.h). It would meet the target wherever the default does, and edges would become stairs. Only budgets
-/// choose it (QualityLimits::plain).
+/// A cheaper filter is never chosen here: edges would become stairs. Only budgets choose one (QualityLimits::plain).
 ///
-/// Hysteresis: a light returns to the default filter after this filter's largest maps had an error below the target /
+/// Hysteresis: a light returns to the default filter after this filter's largest maps met the targets /
 /// kFilterHysteresis in kFilterPasses consecutive frames. After a failed trial, the next one follows kFilterFrames
 /// later.
 namespace gnomon::shadow {
@@ -31,27 +29,27 @@ inline constexpr std::uint32_t kFilterFrames = 60;
 /// the visible receivers.
 inline constexpr std::uint32_t kFilterPasses = 30;
 
-/// Returns true if the target may choose the filter. Then neither filter nor map size is given, and either filter shows
-/// the same shadows. They would differ with a sun's own eye, a given depth range, or a manual bias, because the
+/// Returns true if the targets may choose the filter. Then neither filter nor map size is given, and either filter
+/// shows the same shadows. They would differ with a sun's own eye, a given depth range, or a manual bias, because the
 /// predicted error assumes the automatic one.
 bool leaves_filter(const LightItem& light);
 
-/// Returns the filter with which the light's request starts. `held`: last choice of the target, null for a new light.
+/// Returns the filter with which the light's request starts. `held`: last choice of the targets, null for a new light.
 ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held);
 
-/// Chooses the filter where the largest maps of the default filter have the error `usual_px`, pixels. NaN: they miss
-/// the target.
-ShadowFilter chosen_filter(const FilterHistory& held, double usual_px, double target_px);
+/// Chooses the filter where the largest maps of the default filter have the accuracy `usual`.
+ShadowFilter chosen_filter(const FilterHistory& held, const MapAccuracy& usual, const AccuracyTargets& targets);
 
 /// Returns true if a light with kExactFilter is due for a trial fit of the default filter.
-bool is_trial_due(const FilterHistory& held, double target_px);
+bool is_trial_due(const FilterHistory& held, const AccuracyTargets& targets);
 
-/// Returns true if a light returns to the default filter after a trial that passed. After a change of the target it
+/// Returns true if a light returns to the default filter after a trial that passed. After a change of the targets it
 /// does at once.
-bool comes_back(const FilterHistory& held, double target_px);
+bool comes_back(const FilterHistory& held, const AccuracyTargets& targets);
 
-/// Computes the history of a light with kExactFilter after a frame. `seen_px`: error of its maps. `usual_px`: error
-/// of the default filter's maps at the last trial. `passed`: a trial in this frame met the target.
-FilterHistory exact_history(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px);
+/// Computes the history of a light with kExactFilter after a frame. `seen_px`: error of its maps. `usual`:
+/// accuracy of the default filter's maps at the last trial. `passed`: a trial in this frame met the targets.
+FilterHistory exact_history(const FilterHistory& held, const MapAccuracy& usual, bool passed, double seen_px,
+                            const AccuracyTargets& targets);
 
 }  // namespace gnomon::shadow

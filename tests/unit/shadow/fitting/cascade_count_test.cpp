@@ -83,7 +83,7 @@ protected:
     }
     static double predicted_px(const ShadowFrame& frame) {
         double worst = 0.0;
-        for (const ShadowView& view : frame.fitted.views) worst = std::max(worst, view.error.edge_px);
+        for (const ShadowView& view : frame.fitted.views) worst = std::max(worst, view.error.texel_edge_px);
         return worst;
     }
     static std::uint64_t texels(const ShadowFrame& frame) {

@@ -99,7 +99,7 @@ TEST_P(PredictedError, AViewStatesABoundForEveryReceiverBySlope) {
         const double own_px = edge_error_px(texel_extent_px(c.view, c.scene.consumers[0], c.p_ws, c.normal), kReach);
         EXPECT_LE(own_px, stated_error_px(c.view, c.facing, kReach) * (1.0 + 1e-9)) << c.facing;
         ++(c.facing >= 1.0 / kSteepestReceiver ? flat : steep);
-        beyond += own_px > c.view.error.edge_px ? 1 : 0;
+        beyond += own_px > c.view.error.texel_edge_px ? 1 : 0;
     });
     EXPECT_GT(flat, 100);
     EXPECT_GT(steep, 100);

@@ -130,7 +130,7 @@ TEST_P(FitTest, LayersAreCountedUpAndEveryViewNamesItsDemand) {
             }
             EXPECT_LT(frame.fitted.views[v].layer, std::max(frame.fitted.lights[0].request.map.view_count, light_kind_row(GetParam()).layers));
             EXPECT_EQ(frame.fitted.views[v].light, 0u);
-            EXPECT_TRUE(std::isfinite(frame.fitted.views[v].error.edge_px));
+            EXPECT_TRUE(std::isfinite(frame.fitted.views[v].error.texel_edge_px));
         }
         EXPECT_LE(frame.fitted.views.size(), frame.fitted.lights[0].request.map.view_count);
     }
@@ -146,7 +146,7 @@ TEST_P(FitTest, TwiceTheTexelsHalveThePredictedErrorBeyondThePixelItself) {
     const auto error = [&](std::uint32_t px) {
         scene.lights[0].shadow.resolution_px = px;
         const ShadowFrame frame = fitted(scene);
-        return frame.fitted.views.empty() ? 0.0 : frame.fitted.views[0].error.edge_px - 1.0;
+        return frame.fitted.views.empty() ? 0.0 : frame.fitted.views[0].error.texel_edge_px - 1.0;
     };
     ASSERT_GT(error(1024), 0.0);
     EXPECT_NEAR(error(1024) / error(2048), 2.0, 0.05);

@@ -9,7 +9,7 @@
 namespace gnomon::shadow {
 namespace {
 
-constexpr double kExtent_px = 0.75;
+constexpr double kExtent_px = 0.75, kWideTexel_m = 0.25, kFarRounding_px = 0.01;
 
 /// A view whose fit counts with `filter`, in a map of its own size.
 /// One light with one view in a map of the size that it was fitted for.
@@ -21,14 +21,19 @@ struct Case {
         decision.request.rays.used = row.rays;
         fitted.lights[0].views.count = 1;
         view().error.extent_px = kExtent_px;
-        view().error.edge_px = edge_error_px(kExtent_px, static_cast<double>(row.reach_texel - row.still_texel));
+        const auto reach_texel = static_cast<double>(row.reach_texel - row.still_texel);
+        view().error.texel_m = kWideTexel_m;
+        view().error.rounding_px = kFarRounding_px;
+        view().error.texel_edge_px = edge_error_px(kExtent_px, reach_texel);
+        view().error.resolved_m = resolved_width_texel(reach_texel) * kWideTexel_m;
+        state_edges(row.storage.triangle_ids, view());
         map.texture = {1};
         map.size_px = 512;
     }
     ShadowView& view() { return fitted.views[0]; }
     DrawnViews drawn() const { return {fitted, {&decision, 1}, {&map, 1}, {&plan, 1}, {&status, 1}}; }
     LookupAccuracy by(ShadowFilter filter) const {
-        LookupAccuracy accuracy{filter, 0.0, false};
+        LookupAccuracy accuracy{filter, 0.0, false, {}};
         add_view(light, drawn(), 0, accuracy);
         return accuracy;
     }
@@ -60,6 +65,35 @@ TEST(LookupAccuracy, OfItsOwnFilterIsWhatItsFitSays) {
     EXPECT_TRUE(wide.by(kCheapestFilter).keeps_max_error);
 }
 
+TEST(LookupAccuracy, OfWalksDependsOnNoTexelButOnThoseThatFindACaster) {
+    Case walks(ShadowFilter::triangles);
+    const LookupAccuracy fine = walks.by(ShadowFilter::triangles);
+    EXPECT_DOUBLE_EQ(fine.predicted_error_px, walk_error_px(kFarRounding_px));
+    EXPECT_LT(fine.predicted_error_px, 1.0);
+    EXPECT_TRUE(fine.keeps_max_error);
+    EXPECT_DOUBLE_EQ(fine.resolved.px, kExtent_px / kSteepestReceiver);
+    EXPECT_DOUBLE_EQ(fine.resolved.m, kWideTexel_m);
+    walks.map.size_px = 128;
+    const LookupAccuracy coarse = walks.by(ShadowFilter::triangles);
+    EXPECT_DOUBLE_EQ(coarse.predicted_error_px, walk_error_px(kFarRounding_px));
+    EXPECT_DOUBLE_EQ(coarse.resolved.px, 4.0 * fine.resolved.px);
+    EXPECT_DOUBLE_EQ(coarse.resolved.m, 4.0 * fine.resolved.m);
+    walks.map.size_px = 512;
+    state_edges(false, walks.view());
+    EXPECT_DOUBLE_EQ(walks.by(ShadowFilter::triangles).predicted_error_px, kExtent_px + 1.0) << "casters by depth";
+}
+
+TEST(LookupAccuracy, SaysWhetherTheNarrowestCasterThatMustCountIsResolved) {
+    Case c(ShadowFilter::triangles);
+    EXPECT_TRUE(c.by(ShadowFilter::triangles).resolved.keeps_narrowest) << "no wish";
+    for (const float wish_px : {0.5f, 0.3f}) {
+        c.light.shadow.narrowest_caster_px = wish_px;
+        EXPECT_EQ(c.by(ShadowFilter::triangles).resolved.keeps_narrowest, wish_px > 0.4f) << wish_px;
+        EXPECT_TRUE(c.by(ShadowFilter::triangles).keeps_max_error) << "another wish";
+    }
+    EXPECT_FALSE(Case(ShadowFilter::triangles).without_map().by(ShadowFilter::triangles).resolved.keeps_narrowest);
+}
+
 TEST(LookupAccuracy, GrowsWithTexelsThatAreMissingAndWithCastersThatMoved) {
     Case c(ShadowFilter::exact);
     c.map.size_px = 256;
@@ -76,7 +110,7 @@ TEST(LookupAccuracy, OfWhatIsNotLookedUpIsNothing) {
     Case lit(ShadowFilter::triangles), none(ShadowFilter::triangles), unseen(ShadowFilter::triangles);
     lit.view().lit = true;
     none.map.texture = {};
-    unseen.view().error.edge_px = unseen.view().error.extent_px = 0.0;
+    unseen.view().error = {};
     for (const Case& c : {lit, none, unseen}) EXPECT_EQ(c.by(kCheapestFilter).predicted_error_px, 0.0);
     EXPECT_FALSE(lit.by(kCheapestFilter).keeps_max_error);
 }

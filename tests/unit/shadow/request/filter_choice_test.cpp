@@ -3,64 +3,81 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
+#include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/request/accuracy_target.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// A light that names no filter has the usual one, or the one that keeps max_error_px where that is said and the usual
-/// one's maps do not; and what it has stays while a camera walks.
+/// A light that names no filter has the usual one, or exact where it has targets that the usual one's maps miss. Either
+/// stays while a camera walks.
 namespace gnomon::shadow {
 namespace {
 
-/// A map's share of an error that is beside the pixel of the picture's own.
-constexpr double px(double of_texels_px) { return of_texels_px + 1.0; }
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN(), kEndless = std::numeric_limits<double>::infinity();
+constexpr AccuracyTargets kOfEdges{2.0, 0.0}, kOfWidth{0.0, 2.0}, kBothTargets{2.0, 2.0};
+
+/// Maps with that error of edges, beside the picture's own pixel, and that width of what they resolve.
+constexpr MapAccuracy stated_maps(double edge_px, double resolved_px) { return {edge_px + 1.0, 1.0, resolved_px}; }
 
 TEST(FilterChoice, IsTheUsualOneAsLongAsItsMapsKeepTheWord) {
-    EXPECT_EQ(chosen_filter({}, px(2.0), 2.0), kDefaultFilter);
-    EXPECT_EQ(chosen_filter({}, px(2.01), 2.0), kExactFilter);
-    EXPECT_EQ(chosen_filter({kDefaultFilter, 2.0}, px(2.0), 2.0), kDefaultFilter);
-    EXPECT_EQ(chosen_filter({kDefaultFilter, 2.0}, px(2.01), 2.0), kExactFilter);
-    EXPECT_EQ(chosen_filter({}, std::numeric_limits<double>::quiet_NaN(), 2.0), kExactFilter);
-    EXPECT_EQ(chosen_filter({}, std::numeric_limits<double>::infinity(), 1e9), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(2.0, 9.0), kOfEdges), kDefaultFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(2.01, 0.0), kOfEdges), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(9.0, 2.0), kOfWidth), kDefaultFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(0.0, 2.01), kOfWidth), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(2.0, 2.0), kBothTargets), kDefaultFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(2.01, 2.0), kBothTargets), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, stated_maps(2.0, 2.01), kBothTargets), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, {2.01, 0.0, 0.0}, kOfEdges), kExactFilter) << "no pixel of the picture's in it";
+    EXPECT_EQ(chosen_filter({kDefaultFilter, kOfEdges, {}}, stated_maps(2.0, 9.0), kOfEdges), kDefaultFilter);
+    EXPECT_EQ(chosen_filter({kDefaultFilter, kOfEdges, {}}, stated_maps(2.01, 9.0), kOfEdges), kExactFilter);
+    for (const double bad : {kNoNumber, kEndless}) {
+        EXPECT_EQ(chosen_filter({}, stated_maps(bad, 0.0), kOfEdges), kExactFilter);
+        EXPECT_EQ(chosen_filter({}, stated_maps(0.0, bad), kOfWidth), kExactFilter);
+    }
 }
 
 TEST(FilterChoice, ComesBackOnceTheUsualOneErrsByLessThanItMay) {
-    const FilterHistory keeping{kExactFilter, 2.0};
-    EXPECT_EQ(chosen_filter(keeping, px(1.42), 2.0), kExactFilter);
-    EXPECT_EQ(chosen_filter(keeping, px(1.41), 2.0), kDefaultFilter);
-    EXPECT_EQ(chosen_filter(keeping, px(2.9), 3.0), kDefaultFilter) << "another word: nothing is held of it";
+    const FilterHistory keeping{kExactFilter, kBothTargets, {}};
+    EXPECT_EQ(chosen_filter(keeping, stated_maps(1.42, 1.0), kBothTargets), kExactFilter);
+    EXPECT_EQ(chosen_filter(keeping, stated_maps(1.0, 1.42), kBothTargets), kExactFilter);
+    EXPECT_EQ(chosen_filter(keeping, stated_maps(1.41, 1.41), kBothTargets), kDefaultFilter);
+    EXPECT_EQ(chosen_filter(keeping, stated_maps(2.9, 1.9), {3.0, 2.0}), kDefaultFilter) << "another word: nothing is held of it";
+    EXPECT_EQ(chosen_filter(keeping, stated_maps(1.9, 2.9), {2.0, 3.0}), kDefaultFilter);
 }
 
 TEST(FilterChoice, IsTriedAgainASecondAfterWhatIsSeenChangedAndNotBefore) {
-    FilterHistory held = exact_history({}, 9.0, false, 1.0, 2.0);
+    const MapAccuracy usual = stated_maps(9.0, 4.0), later = stated_maps(8.0, 4.0);
+    FilterHistory held = exact_history({}, usual, false, 1.0, kOfEdges);
     EXPECT_EQ(held.filter, kExactFilter);
     EXPECT_EQ(held.frames, kFilterFrames);
     for (std::uint32_t frame = kFilterFrames; frame > 1; --frame) {
-        EXPECT_FALSE(is_trial_due(held, 2.0)) << frame;
-        held = exact_history(held, 9.0, false, 1.0 + frame, 2.0);
+        EXPECT_FALSE(is_trial_due(held, kOfEdges)) << frame;
+        held = exact_history(held, usual, false, 1.0 + frame, kOfEdges);
     }
-    EXPECT_TRUE(is_trial_due(held, 2.0));
-    held = exact_history(held, 8.0, false, held.seen_px, 2.0);
+    EXPECT_TRUE(is_trial_due(held, kOfEdges));
+    held = exact_history(held, later, false, held.seen_px, kOfEdges);
     EXPECT_EQ(held.frames, 0u) << "all is as it was: at rest";
-    EXPECT_FALSE(is_trial_due(held, 2.0));
-    EXPECT_EQ(exact_history(held, 8.0, false, held.seen_px, 2.0), held);
-    EXPECT_EQ(exact_history(held, 8.0, false, held.seen_px + 1.0, 2.0).frames, kFilterFrames);
-    EXPECT_TRUE(is_trial_due(held, 2.5)) << "another word";
+    EXPECT_FALSE(is_trial_due(held, kOfEdges));
+    EXPECT_EQ(exact_history(held, later, false, held.seen_px, kOfEdges), held);
+    EXPECT_EQ(exact_history(held, later, false, held.seen_px + 1.0, kOfEdges).frames, kFilterFrames);
+    EXPECT_TRUE(is_trial_due(held, {2.5, 0.0})) << "another word";
+    EXPECT_TRUE(is_trial_due(held, kBothTargets)) << "another word";
 }
 
 TEST(FilterChoice, ComesBackOnlyAfterEveryFrameOfHalfASecondPassed) {
-    FilterHistory held{kExactFilter, 2.0, 9.0, 1.0, 1, 0};
+    FilterHistory held{kExactFilter, kOfEdges, stated_maps(9.0, 4.0), 1.0, 1, 0};
     for (std::uint32_t pass = 1; pass < kFilterPasses; ++pass) {
-        EXPECT_TRUE(is_trial_due(held, 2.0));
-        EXPECT_FALSE(comes_back(held, 2.0)) << pass;
-        EXPECT_TRUE(comes_back(held, 2.5)) << "another word: at once";
-        held = exact_history(held, 1.0, true, 1.0, 2.0);
+        EXPECT_TRUE(is_trial_due(held, kOfEdges));
+        EXPECT_FALSE(comes_back(held, kOfEdges)) << pass;
+        EXPECT_TRUE(comes_back(held, kOfWidth)) << "another word: at once";
+        held = exact_history(held, stated_maps(1.0, 4.0), true, 1.0, kOfEdges);
     }
-    EXPECT_TRUE(comes_back(held, 2.0));
-    held = exact_history(held, 9.0, false, 1.0, 2.0);
+    EXPECT_TRUE(comes_back(held, kOfEdges));
+    held = exact_history(held, stated_maps(9.0, 4.0), false, 1.0, kOfEdges);
     EXPECT_EQ(held.passed, 0u);
     EXPECT_EQ(held.frames, kFilterFrames) << "one that fails ends it";
-    EXPECT_FALSE(is_trial_due(held, 2.0));
+    EXPECT_FALSE(is_trial_due(held, kOfEdges));
 }
 
 TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
@@ -79,6 +96,8 @@ TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
     };
     for (LightItem light : {sun, lamp}) {
         EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.max_error_px = 0.0f; })) << "nothing is said";
+        EXPECT_TRUE(leaves(light, [](LightShadow& s) { s = {.narrowest_caster_px = 2.0f}; }));
+        EXPECT_FALSE(leaves(light, [](LightShadow& s) { s = {.narrowest_caster_px = -2.0f}; }));
         EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.filter = ShadowFilter::triangles; }));
         EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.resolution_px = 512; }));
         EXPECT_FALSE(leaves(light, [](ShadowTuning& t) { t.projection.near_m = 0.5f; }));
@@ -89,7 +108,7 @@ TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
     EXPECT_FALSE(leaves(sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::perspective; }));
     EXPECT_FALSE(leaves(sun, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; }));
     EXPECT_TRUE(leaves(lamp, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; })) << "of suns alone";
-    const FilterHistory keeping{kExactFilter, 2.0};
+    const FilterHistory keeping{kExactFilter, kOfEdges, {}};
     EXPECT_EQ(filter_to_fit(lamp, nullptr), kDefaultFilter);
     EXPECT_EQ(filter_to_fit(lamp, &keeping), kExactFilter);
     lamp.shadow.max_error_px = 0.0f;
@@ -102,19 +121,19 @@ class FittedFilter : public ::testing::TestWithParam<LightKind> {
 protected:
     static SceneSnapshot scene(RandomScene& random, float wish_px) {
         SceneSnapshot s = random.scene(GetParam());
-        s.lights[0].shadow = {.max_error_px = wish_px};
+        s.lights[0].shadow = {.narrowest_caster_px = wish_px};
         return s;
     }
     static ShadowFilter filter(const ShadowFrame& frame) { return frame.fitted.lights[0].request.map.filter; }
-    static double looked_up_px(const ShadowFrame& frame) {
+    static double resolved_in(const ShadowFrame& frame) {
         double worst = 0.0;
         for (const ShadowView& view : frame.fitted.views)
-            if (!view.lit) worst = std::max(worst, view.error.edge_px);
+            if (!view.lit) worst = std::max(worst, accuracy_of(view).resolved_px);
         return worst;
     }
     static bool is_named_kept(SceneSnapshot s) {
         s.lights[0].shadow.filter = kDefaultFilter;
-        return meets_target(looked_up_px(fitted(s)), target_error_px(s.lights[0].shadow));
+        return resolved_in(fitted(s)) <= static_cast<double>(s.lights[0].shadow.narrowest_caster_px);
     }
 };
 
@@ -122,28 +141,61 @@ TEST_P(FittedFilter, IsTheKeepingOneExactlyWhereTheUsualOnesMapsDoNotKeepTheWord
     RandomScene random(print_seed());
     int usual = 0, keeping = 0, more_cascades = 0;
     for (int i = 0; i < 100; ++i)
-        for (const float wish_px : {0.5f, 2.0f, 8.0f}) {
+        for (const float wish_px : {0.25f, 1.0f, 4.0f}) {
             const SceneSnapshot s = scene(random, wish_px);
             const ShadowFrame frame = fitted(s);
             if (frame.fitted.views.empty()) continue;
             const bool kept = is_named_kept(s);
             if (filter(frame) == kDefaultFilter) {
                 ++usual;
-                EXPECT_TRUE(meets_target(looked_up_px(frame), wish_px)) << "no other is needed";
+                EXPECT_LE(resolved_in(frame), wish_px) << "no other is needed";
                 more_cascades += kept ? 0 : 1;
-                EXPECT_EQ(frame.fitted.lights[0].default_filter_error_px, 0.0);
+                EXPECT_EQ(frame.fitted.lights[0].default_filter, MapAccuracy{});
                 continue;
             }
             ++keeping;
             EXPECT_EQ(filter(frame), kExactFilter);
             EXPECT_FALSE(kept);
             EXPECT_TRUE(frame.fitted.lights[0].request.rays.used);
-            EXPECT_FALSE(meets_target(frame.fitted.lights[0].default_filter_error_px, wish_px)) << "the number behind it";
+            EXPECT_GT(frame.fitted.lights[0].default_filter.resolved_px, wish_px) << "the number behind it";
         }
     std::cout << usual << " have the usual filter, " << more_cascades << " of them by another number of cascades, "
               << keeping << " the keeping one\n";
     EXPECT_GT(usual, 20);
     EXPECT_GT(keeping, 20);
+}
+
+TEST_P(FittedFilter, IsTheUsualOneForEdgesThatItsWalksKeepWhateverItsTexels) {
+    RandomScene random(print_seed());
+    int fitted_lights = 0, coarse = 0;
+    for (int i = 0; i < 40; ++i) {
+        SceneSnapshot s = scene(random, 0.0f);
+        for (const auto& [wish_px, kept] : {std::pair(1.0f, kDefaultFilter), std::pair(0.5f, kExactFilter)}) {
+            s.lights[0].shadow = {.max_error_px = wish_px};
+            const ShadowFrame frame = fitted(s);
+            if (frame.fitted.views.empty()) continue;
+            EXPECT_EQ(filter(frame), kept) << wish_px;
+            ++fitted_lights;
+            coarse += kept == kDefaultFilter && resolved_in(frame) > 1.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(fitted_lights, 40);
+    EXPECT_GT(coarse, 5) << "texels would have broken it";
+}
+
+TEST_P(FittedFilter, IsTheKeepingOneForEdgesOfCastersByDepth) {
+    RandomScene random(print_seed());
+    int turned = 0;
+    for (int i = 0; i < 40; ++i) {
+        SceneSnapshot s = scene(random, 0.0f);
+        s.lights[0].shadow = {.max_error_px = 1.0f};
+        if (const ShadowFrame frame = fitted(s); frame.fitted.views.empty() || resolved_in(frame) <= 0.5) continue;
+        s.any_by_depth = true;
+        for (auto& instance : s.instances) instance.by_depth = true;
+        EXPECT_EQ(filter(fitted(s)), kExactFilter);
+        ++turned;
+    }
+    EXPECT_GT(turned, 5);
 }
 
 TEST_P(FittedFilter, IsTheUsualOneAsItEverWasWhereNothingIsSaid) {
@@ -157,7 +209,7 @@ TEST_P(FittedFilter, IsTheUsualOneAsItEverWasWhereNothingIsSaid) {
         EXPECT_EQ(filter(frame), kDefaultFilter);
         EXPECT_EQ(frame.fitted.lights[0].request.map.resolution_px, named.fitted.lights[0].request.map.resolution_px);
         EXPECT_EQ(frame.next_history, named.next_history);
-        broken += meets_target(looked_up_px(frame), 1.0) ? 0 : 1;
+        broken += resolved_in(frame) <= 0.5 ? 0 : 1;
     }
     EXPECT_GT(broken, 10) << "another filter would have been chosen, had a pixel been said";
 }
@@ -166,7 +218,7 @@ TEST_P(FittedFilter, HardlyChangesWhileTheCameraSways) {
     RandomScene random(print_seed());
     int changes = 0, keeping = 0, twice_there = 0;
     for (int i = 0; i < 30; ++i) {
-        SceneSnapshot s = scene(random, 4.0f);
+        SceneSnapshot s = scene(random, 2.0f);
         const glm::dvec3 from = s.consumers[0].position_ws_m;
         History held;
         int of_scene = 0;
@@ -192,7 +244,7 @@ TEST_P(FittedFilter, ChangesAtOnceForTheWordAndComesBackASecondAfterItWasNeeded)
     RandomScene random(print_seed());
     int there = 0, back = 0;
     for (int i = 0; i < 60; ++i) {
-        SceneSnapshot s = scene(random, 1.0f);
+        SceneSnapshot s = scene(random, 0.5f);
         const glm::dvec3 near_m = s.consumers[0].position_ws_m;
         s.consumers[0].far_m = 1e5;
         const auto stand = [&](double times) { s.consumers[0].position_ws_m = near_m * times; };
@@ -212,7 +264,7 @@ TEST_P(FittedFilter, ChangesAtOnceForTheWordAndComesBackASecondAfterItWasNeeded)
         }
         const ShadowFrame again = fitted(s, held);
         back += filter(again) == kDefaultFilter ? 1 : 0;
-        EXPECT_EQ(filter(again) == kDefaultFilter, meets_target(looked_up_px(far), 1.0 / kFilterHysteresis));
+        EXPECT_EQ(filter(again) == kDefaultFilter, resolved_in(far) <= 0.5 / kFilterHysteresis);
     }
     EXPECT_GT(there, 5);
     EXPECT_GT(back, 5);
@@ -221,7 +273,7 @@ TEST_P(FittedFilter, ChangesAtOnceForTheWordAndComesBackASecondAfterItWasNeeded)
 TEST_P(FittedFilter, ComesToRest) {
     RandomScene random(print_seed());
     for (int i = 0; i < 40; ++i) {
-        const SceneSnapshot s = scene(random, 1.0f);
+        const SceneSnapshot s = scene(random, 0.5f);
         History held;
         for (std::uint32_t f = 0; f < 2 * kFilterFrames + 4; ++f) held = fitted(s, held).next_history;
         EXPECT_EQ(fitted(s, held).next_history, held) << i;
@@ -233,7 +285,7 @@ TEST_P(FittedFilter, WaitsForTheNextFrameWithinABudget) {
     RandomScene random(print_seed());
     int waited = 0;
     for (int i = 0; i < 40; ++i) {
-        const SceneSnapshot s = scene(random, 0.5f);
+        const SceneSnapshot s = scene(random, 0.25f);
         if (const ShadowFrame now = fitted(s); now.fitted.views.empty() || filter(now) != kExactFilter) continue;
         const ShadowFrame first = fitted(s, {}, true);
         EXPECT_EQ(filter(first), kDefaultFilter);

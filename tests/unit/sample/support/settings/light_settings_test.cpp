@@ -21,6 +21,7 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                    .filter = ShadowFilter::pcf_grid,
                    .antialias = true,
                    .max_error_px = 0.3f,
+                   .narrowest_caster_px = 0.6f,
                    .resolution_px = 768,
                    .cascades = 6,
                    .refresh_error_px = 0.7f,
