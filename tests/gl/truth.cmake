@@ -6,7 +6,6 @@ if(GNOMON_SAMPLE)
     error_gate_gl_test.cpp
     left_out_lights_gl_test.cpp
     resolved_edges_gl_test.cpp
-    resolved_width_gl_test.cpp
     recorded_errors.cpp
     soft_shadows_gl_test.cpp
     sweep_bounds_gl_test.cpp
