@@ -2,6 +2,7 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_casters LABEL gl SOURCES
     shadow_layers_gl_test.cpp
+    bars_along_light_gl_test.cpp
     caster_faces_gl_test.cpp
     creases_gl_test.cpp
     far_lamps_gl_test.cpp

@@ -86,8 +86,10 @@ void darken_places(ShadowPoint point, AreaStarts starts, inout AreaPlaces area) 
         vec3 normal = cross(ab, ac);
         vec3 to_light = toward_light(a_ca);
         vec3 sides = max(vec3(length(ab), length(c - b), length(ac)), vec3(kLeastSide_m));
-        bool has_area = known && length(normal) > kPlaneRounding * max(sides.x, max(sides.y, sides.z)) * length(a);
-        float faces = dot(normal, to_light), side = faces < 0.0 ? -1.0 : 1.0;
+        float faces = dot(normal, to_light);
+        bool has_area = known && shows_area(faces, normal, sides, a, to_light);
+        faces = has_area ? faces : first_faces;   // it is crossed, and is no fold
+        float side = faces < 0.0 ? -1.0 : 1.0;
         first_faces = first_faces == 0.0 ? faces : first_faces;
         vec3 beside_ab = cross(a, b), beside_bc = cross(b, c), beside_ca = cross(c, a);
         vec3 inside = side * vec3(dot(ray, beside_ab), dot(ray, beside_bc), dot(ray, beside_ca));

@@ -31,6 +31,13 @@ float error_along_view_m(vec3 position_ca, vec3 normal, float error_m) {
     return error_m / max(abs(dot(normal, normalize(to_camera(position_ca)))), kNormalError_rad);
 }
 
+// Returns whether a triangle shows area to the light, beyond rounding. What a node flattens shows none, nor what the
+// light passes along. `faces`: normal times the vector to the light. The sign of what is below the bound says nothing.
+bool shows_area(float faces, vec3 normal, vec3 sides, vec3 a, vec3 to_light) {
+    float rounding_m2 = kPlaneRounding * (max(sides.x, max(sides.y, sides.z)) * length(a) + length(normal));
+    return abs(faces) > rounding_m2 * length(to_light);
+}
+
 // Returns the verdict on a masked triangle before the receiver. It has no sheet to walk: what lies beside it shows in
 // other texels.
 int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2) {
@@ -78,9 +85,10 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         vec3 normal = cross(ab, ac);
         vec3 to_light = toward_light(a_ca);
         vec3 sides = max(vec3(length(ab), length(c - b), length(ac)), vec3(kLeastSide_m));
-        // Without area, as what a node flattens, it faces nowhere: the walk crosses it as it came.
-        bool has_area = length(normal) > kPlaneRounding * max(sides.x, max(sides.y, sides.z)) * length(a);
-        float faces = has_area ? dot(normal, to_light) : facing;
+        // Without area it faces nowhere: the walk crosses it as it came.
+        float faces = dot(normal, to_light);
+        bool has_area = shows_area(faces, normal, sides, a, to_light);
+        faces = has_area ? faces : facing;
         float side = faces < 0.0 ? -1.0 : 1.0;
         // Above 0: the ray passes on the inner side of the edge.
         vec3 beside_ab = cross(a, b), beside_bc = cross(b, c), beside_ca = cross(c, a);
