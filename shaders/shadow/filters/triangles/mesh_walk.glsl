@@ -32,7 +32,7 @@ float error_along_view_m(vec3 position_ca, vec3 normal, float error_m) {
 }
 
 // Returns whether a triangle shows area to the light, beyond rounding. What a node flattens shows none, nor what the
-// light passes along. `faces`: normal times the vector to the light. The sign of what is below the bound says nothing.
+// light passes along. `faces`: normal times the vector to the light. Below the bound its sign is random.
 bool shows_area(float faces, vec3 normal, vec3 sides, vec3 a, vec3 to_light) {
     float rounding_m2 = kPlaneRounding * (max(sides.x, max(sides.y, sides.z)) * length(a) + length(normal));
     return abs(faces) > rounding_m2 * length(to_light);
