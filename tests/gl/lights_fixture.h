@@ -47,7 +47,8 @@ protected:
         return std::to_string(i) + ": " + std::string(row.kind_file) + " " + std::string(row.filter_file);
     }
     /// Expects every light to be looked up as by its own pass, to rounding.
-    void expect_alike(gl::ProgramHandle program, std::size_t least_dark = 100, std::size_t most_apart = 0) {
+    void expect_alike(gl::ProgramHandle program, std::size_t least_dark = 100, std::size_t most_apart = 0,
+                      double most_by = kRounding) {
         const auto found = looked_up(program);
         double largest = 0.0;
         std::size_t apart = 0, between = 0;
@@ -55,6 +56,7 @@ protected:
             const Difference d = difference(found[i], recorded(i));
             EXPECT_EQ(table->outcomes()[i].status, lookup::LookupStatus::own_filter) << name(i) << " " << lookup::to_text(table->outcomes()[i].status);
             EXPECT_LE(d.pixels, most_apart) << name(i) << " differs by " << d.largest;
+            EXPECT_LE(d.largest, most_by) << name(i);
             EXPECT_TRUE(d.dark > least_dark && d.lit > 100) << name(i) << ": " << d.dark << " dark, " << d.lit << " lit";
             largest = std::max(largest, d.largest);
             apart += d.pixels;
