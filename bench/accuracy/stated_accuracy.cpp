@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/text/printf_string.h"
+#include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::bench {
 namespace {
@@ -19,6 +20,11 @@ bool keeps_edges(const LightAccuracy& light) {
 }  // namespace
 
 bool is_as_stated(const LightAccuracy& light) { return keeps_edges(light) && light.needs_wider == 0; }
+
+bool fails_bench(const LightAccuracy& light) {
+    const shadow::FilterRow& row = shadow::filter_row(light.report.filter.filter);
+    return (row.storage.triangle_ids || row.rays) && !is_as_stated(light);
+}
 
 double slack_of(const LightAccuracy& light) {
     return light.report.predicted_error_px / std::max(light.resolved.p99_px, kLeastTold_px);

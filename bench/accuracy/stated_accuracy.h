@@ -14,6 +14,10 @@ inline constexpr double kLeastTold_px = 0.25;
 /// than stated. No scored pixel needs a wider caster than stated. True where nothing is counted.
 bool is_as_stated(const LightAccuracy& light);
 
+/// Returns whether a broken figure fails the bench: that of a filter that walks triangles or asks by rays. Filters that
+/// read texels may lose an edge where a caster meets its receiver: of theirs the table alone reports it.
+bool fails_bench(const LightAccuracy& light);
+
 /// Returns the stated error over the measured 99th percentile, which counts as at least kLeastTold_px. A large ratio:
 /// the bound is idle.
 double slack_of(const LightAccuracy& light);
