@@ -14,7 +14,7 @@ inline constexpr double kLeastTold_px = 0.25;
 /// than stated. No scored pixel needs a wider caster than stated. True where nothing is counted.
 bool is_as_stated(const LightAccuracy& light);
 
-/// Returns whether a broken figure fails the bench: that of a filter that walks triangles or asks by rays. Filters that
+/// Returns whether a broken figure fails the bench: that of a filter that walks triangles or traces rays. Filters that
 /// read texels may lose an edge where a caster meets its receiver: of theirs the table alone reports it.
 bool fails_bench(const LightAccuracy& light);
 
