@@ -29,8 +29,8 @@ inline constexpr int kVisibleSteps = 2;
 
 /// Draws until the picture has all samples of `settings`. Empty: it never has, or cannot be read.
 inline Rgba finished_picture(FrameSystem& frame, ecs::Registry& world, const FrameSettings& settings) {
-    constexpr std::uint32_t kSettlingFrames = 120;
-    for (std::uint32_t i = 0; i < settings.still_samples + kSettlingFrames; ++i) {
+    constexpr std::uint32_t kMostFrames = 120;
+    for (std::uint32_t i = 0; i < settings.still_samples + kMostFrames; ++i) {
         frame.run(world, settings);
         if (i >= 2 && frame.report().samples == settings.still_samples) break;
     }
