@@ -327,7 +327,7 @@ TEST(NearestReceiver, IsWhereTheFirstCascadeBegins) {
         const ShadowFrame by_bounds = fitted(world.scene);
         ASSERT_FALSE(by_bounds.fitted.views.empty());
         EXPECT_LT(by_bounds.fitted.views[0].cascade.seen_from_m, 0.1);
-        EXPECT_LT(4.0 * found.fitted.views[0].error.texel_edge_px, by_bounds.fitted.views[0].error.edge_px);
+        EXPECT_LT(4.0 * found.fitted.views[0].error.texel_edge_px, by_bounds.fitted.views[0].error.texel_edge_px);
     }
 }
 
