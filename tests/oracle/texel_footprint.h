@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
