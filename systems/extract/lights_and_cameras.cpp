@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/put.h"
 #include "gnomon/components.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/light_facts.h"
@@ -16,14 +17,6 @@ namespace gnomon {
 namespace {
 
 using Effect = LightsAndCameras::Effect;
-
-/// Writes a field. Returns true if its value changed, NaN included.
-template <class T>
-bool put(T& field, const T& value) {
-    const bool same = field == value;
-    field = value;
-    return !same;
-}
 
 /// Writes all but the name. Sets shape_version to `version` if that differs. Returns true if anything does.
 bool put_light(const ecs::Registry& registry, const Light& light, const WorldTransform& world, std::uint64_t version,

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/put.h"
+
 namespace gnomon::picture {
 namespace {
-
-/// Stores `now`. Returns whether it was the same.
-template <class T>
-bool keep(T& last, const T& now) {
-    if (last == now) return true;
-    last = now;
-    return false;
-}
 
 bool is_stale(const shadow::UpdatePlan& plan) { return plan.hold != shadow::Hold::none; }
 
@@ -24,10 +18,10 @@ bool PictureChanges::unchanged(const SceneSnapshot& scene, const shadow::ShadowF
     for (const shadow::LightStatus& status : shadows.statuses) now_.push_back({status.skipped(), status.degraded()});
     const Settings wanted{settings.exposure_ev, settings.shadows, settings.rays, settings.leave_out_dim_lights,
                           settings.shadow_budget};
-    bool same = keep(version_, scene.version) && scene.version != 0;
-    same &= keep(consumers_, scene.consumers);
-    same &= keep(pictures_, scene.pictures);
-    same &= keep(settings_, wanted);
+    bool same = !put(version_, scene.version) && scene.version != 0;
+    same &= !put(consumers_, scene.consumers);
+    same &= !put(pictures_, scene.pictures);
+    same &= !put(settings_, wanted);
     same &= outcomes_ == now_;
     std::swap(outcomes_, now_);
     return same && !settings.debug.view && std::none_of(shadows.updates.begin(), shadows.updates.end(), is_stale);

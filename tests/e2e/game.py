@@ -12,6 +12,7 @@ import zlib
 BAD_INPUT = 2
 SMALL = "320x180"
 TIMEOUT_S = 120
+BENCH_TIMEOUT_S = 500
 
 
 class Picture:
@@ -160,6 +161,17 @@ class GameTest(unittest.TestCase):
         if mentions is not None:
             self.assertIn(mentions, text)
         return text
+
+
+def run_bench(bench, file, *words):
+    """Exit code of a measurement, what it printed, and its JSON, which it writes to `file`; None: it wrote none."""
+    done = subprocess.run([bench, *words, "--json", file], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          timeout=BENCH_TIMEOUT_S, check=False)
+    found = None
+    if os.path.exists(file):
+        with open(file, encoding="utf-8") as stream:
+            found = json.load(stream)
+    return done.returncode, done.stdout.decode() + done.stderr.decode(), found
 
 
 def glb_parts(path):

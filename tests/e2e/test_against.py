@@ -1,13 +1,12 @@
 """Two ways to cast shadows held against each other, as a user runs it. What counts say, not clocks."""
-import json
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
-TIMEOUT_S = 300
+from game import run_bench
+
 BAD_INPUT = 2
 ROUNDS, FRAMES = 2, 3
 
@@ -22,14 +21,8 @@ class AgainstTest(unittest.TestCase):
     def run_bench(self, *flags):
         """Exit code, what it printed, and its JSON."""
         file = os.path.join(self.folder, "frames.json")
-        done = subprocess.run([self.bench, "frame", "--size", "64x36", "--rounds", str(ROUNDS), "--repeat",
-                               str(FRAMES), "--json", file, *flags], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              timeout=TIMEOUT_S, check=False)
-        found = None
-        if os.path.exists(file):
-            with open(file, encoding="utf-8") as stream:
-                found = json.load(stream)
-        return done.returncode, done.stdout.decode() + done.stderr.decode(), found
+        return run_bench(self.bench, file, "frame", "--size", "64x36", "--rounds", str(ROUNDS), "--repeat", str(FRAMES),
+                         *flags)
 
     def test_each_way_has_its_own_settings_and_its_own_maps(self):
         code, text, found = self.run_bench("--set", "filter=hard", "--set", "cascades=1", "--set", "resolution=64",

@@ -1,13 +1,12 @@
 """What gnomon::Shadows costs an engine, as a user measures it. What pictures and counts say, not clocks."""
-import json
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
-TIMEOUT_S = 500
+from game import run_bench
+
 BAD_INPUT = 2
 ROUNDS, FRAMES = 2, 2
 STILL = ("passes_without", "passes", "mask", "shader_without", "lookup")
@@ -23,13 +22,7 @@ class EmbedTest(unittest.TestCase):
         folder = tempfile.mkdtemp(prefix="gnomon_embed_")
         self.addCleanup(shutil.rmtree, folder, True)
         file = os.path.join(folder, "embed.json")
-        done = subprocess.run([self.bench, "embed", "--json", file, *flags], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, timeout=TIMEOUT_S, check=False)
-        found = None
-        if os.path.exists(file):
-            with open(file, encoding="utf-8") as stream:
-                found = json.load(stream)
-        return done.returncode, done.stdout.decode() + done.stderr.decode(), found
+        return run_bench(self.bench, file, "embed", *flags)
 
     def test_every_way_is_timed_over_the_same_shadows(self):
         code, text, found = self.run_bench("--quick", "--size", "96x54", "--lights", "1,3", "--rounds", str(ROUNDS),

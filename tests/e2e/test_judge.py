@@ -1,11 +1,12 @@
 """Another renderer's shadows judged by rays. Gnomon's own files stand for another's: as drawn, without shadows, and spoiled."""
-import json
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+
+from game import run_bench
 
 TIMEOUT_S = 300
 BAD_INPUT = 2
@@ -31,15 +32,7 @@ class JudgeTest(unittest.TestCase):
         return self.measure("judge", "--visibility", self.folder, *flags)
 
     def measure(self, *words):
-        """Exit code, what it printed, and its JSON."""
-        file = os.path.join(self.folder, words[0] + ".json")
-        done = subprocess.run([self.bench, *words, "--json", file], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              timeout=TIMEOUT_S, check=False)
-        found = None
-        if os.path.exists(file):
-            with open(file, encoding="utf-8") as stream:
-                found = json.load(stream)
-        return done.returncode, done.stdout.decode() + done.stderr.decode(), found
+        return run_bench(self.bench, os.path.join(self.folder, words[0] + ".json"), *words)
 
     def test_right_shadows_are_right_and_missing_ones_wrong(self):
         self.draw()

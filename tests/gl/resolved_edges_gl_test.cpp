@@ -13,17 +13,6 @@ namespace {
 constexpr std::size_t kLeastPlaces = 200;
 constexpr double kMostMedianSlack = 3.0;
 
-struct Scene {
-    const char* file;  // below the data folder; null: the built-in one
-    const char* camera;
-};
-constexpr Scene kScenes[] = {{nullptr, "main"},
-                             {nullptr, "top"},
-                             {nullptr, "low"},
-                             {"sponza-crytek/Sponza.gltf", nullptr},
-                             {"khronos-sample-models/Lantern/glTF/Lantern.gltf", nullptr},
-                             {"khronos-sample-models/SciFiHelmet/glTF/SciFiHelmet.gltf", nullptr}};
-
 /// Lights with more than a thousandth of their places beyond what is stated, and how many those are at most. Walks of
 /// few steps end in folds of cloth and in leaves of plants.
 struct Exception {
@@ -54,7 +43,7 @@ protected:
             EXPECT_LE(beyond(light), named->most_beyond);
     }
 
-    static bench::StageOptions options_of(const Scene& scene, std::vector<std::string> settings) {
+    static bench::StageOptions options_of(const TruthScene& scene, std::vector<std::string> settings) {
         bench::StageOptions options;
         options.size_px = {640, 360};
         if (scene.file) options.scene = test::data_folder() / scene.file;
@@ -65,7 +54,7 @@ protected:
     /// Measures every light of every scene there is.
     template <class Take>
     static void each_light(const std::vector<std::string>& settings, const Take& take) {
-        for (const Scene& scene : kScenes) {
+        for (const TruthScene& scene : kTruthScenes) {
             const bench::StageOptions options = options_of(scene, settings);
             if (options.scene && !std::filesystem::exists(*options.scene)) {
                 std::printf("left out: no %s in the data folder\n", scene.file);
@@ -106,7 +95,7 @@ TEST_F(ResolvedEdges, AreWhereTheyAreStatedToBeByCoarseTexelsToo) {
 }
 
 TEST_F(ResolvedEdges, AreFoundWhereTheyAreNotStatedToBe) {
-    const bench::StageOptions coarse = options_of(kScenes[0], {"filter=hard", "resolution=512"});
+    const bench::StageOptions coarse = options_of(kTruthScenes[0], {"filter=hard", "resolution=512"});
     for (bench::LightAccuracy light : measure(coarse).lights) {
         EXPECT_TRUE(bench::is_as_stated(light)) << light.report.name;
         light.report.predicted_error_px = shadow::kWalk_px;  // texels do not walk
@@ -115,7 +104,7 @@ TEST_F(ResolvedEdges, AreFoundWhereTheyAreNotStatedToBe) {
 }
 
 TEST_F(ResolvedEdges, AreFoundWhereNarrowerCastersAreTakenForResolved) {
-    const auto stage = open(options_of(kScenes[0], {"resolution=256"}));
+    const auto stage = open(options_of(kTruthScenes[0], {"resolution=256"}));
     ASSERT_TRUE(stage);
     const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .telling = 0.25});
     ASSERT_TRUE(accuracy);
@@ -124,7 +113,7 @@ TEST_F(ResolvedEdges, AreFoundWhereNarrowerCastersAreTakenForResolved) {
 }
 
 TEST_F(ResolvedEdges, NeedNoWiderCasterThanIsStated) {
-    const auto stage = open(options_of(kScenes[0], {}));
+    const auto stage = open(options_of(kTruthScenes[0], {}));
     ASSERT_TRUE(stage);
     const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .stating = 0.5});
     ASSERT_TRUE(accuracy);

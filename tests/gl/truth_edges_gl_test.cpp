@@ -14,20 +14,9 @@ constexpr double kMostMedianRatio = 3.0;
 constexpr double kMostExcusable = 0.3;
 constexpr const char* kResolutions[] = {"512", "1024", "2048"};
 
-struct Scene {
-    const char* file;  // below the data folder; null: the built-in one
-    const char* camera;
-};
-constexpr Scene kScenes[] = {{nullptr, "main"},
-                             {nullptr, "top"},
-                             {nullptr, "low"},
-                             {"sponza-crytek/Sponza.gltf", nullptr},
-                             {"khronos-sample-models/Lantern/glTF/Lantern.gltf", nullptr},
-                             {"khronos-sample-models/SciFiHelmet/glTF/SciFiHelmet.gltf", nullptr}};
-
 class TruthEdges : public TruthTest {
 protected:
-    static bench::StageOptions options_of(const Scene& scene, const char* resolution) {
+    static bench::StageOptions options_of(const TruthScene& scene, const char* resolution) {
         bench::StageOptions options;
         options.size_px = {640, 360};
         if (scene.file) options.scene = test::data_folder() / scene.file;
@@ -53,7 +42,7 @@ protected:
 TEST_F(TruthEdges, AreNoFartherOffThanPredictedAndThePredictionIsNotIdle) {
     std::vector<double> ratios;
     oracle::EdgeExceptions all;
-    for (const Scene& scene : kScenes)
+    for (const TruthScene& scene : kTruthScenes)
         for (const char* resolution : kResolutions) {
             const bench::StageOptions options = options_of(scene, resolution);
             if (options.scene && !std::filesystem::exists(*options.scene)) {
@@ -83,7 +72,7 @@ TEST_F(TruthEdges, AreNoFartherOffThanPredictedAndThePredictionIsNotIdle) {
 
 TEST_F(TruthEdges, AreFoundFartherOffByAPredictionOfHalfTheTexels) {
     for (const char* resolution : kResolutions) {
-        const auto stage = open(options_of(kScenes[0], resolution));
+        const auto stage = open(options_of(kTruthScenes[0], resolution));
         ASSERT_TRUE(stage);
         const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .telling = 0.5});
         ASSERT_TRUE(accuracy);

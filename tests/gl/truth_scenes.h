@@ -18,6 +18,19 @@ namespace gnomon {
 // The bounds that every light of every scene must meet with default settings, and no acne (bench/accuracy/default_limits.h).
 inline constexpr double kMostWrong = bench::kMostWrongByDefault, kMostLeak = bench::kMostLeakByDefault;
 
+/// Scene with a camera, to compare bounds of edges with.
+struct TruthScene {
+    const char* file;  // below the data folder; null: the built-in one
+    const char* camera;
+};
+inline constexpr TruthScene kTruthScenes[] = {
+    {nullptr, "main"},
+    {nullptr, "top"},
+    {nullptr, "low"},
+    {"sponza-crytek/Sponza.gltf", nullptr},
+    {"khronos-sample-models/Lantern/glTF/Lantern.gltf", nullptr},
+    {"khronos-sample-models/SciFiHelmet/glTF/SciFiHelmet.gltf", nullptr}};
+
 /// A folder that is gone at the end of the test.
 class TruthTest : public ::testing::Test {
 protected:

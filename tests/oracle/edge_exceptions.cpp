@@ -64,19 +64,10 @@ private:
 
     static constexpr std::size_t kQuestions = 3;  // of a pixel: whether it is certain, all dark, all lit
     bool is_certain(std::size_t pixel) const {
-        return answers_.get(kQuestions * pixel, [&] { return find_certain(pixel); });
+        return answers_.get(kQuestions * pixel, [&] { return shows_one_surface(tracer_, hits_, consumer_, truth_, pixel); });
     }
     bool is_whole(std::size_t pixel, bool dark) const {
         return answers_.get(kQuestions * pixel + (dark ? 1 : 2), [&] { return find_whole(pixel, dark); });
-    }
-
-    bool find_certain(std::size_t pixel) const {
-        if (truth_.ambiguous[pixel]) return false;
-        const glm::dvec2 centre(pixel % hits_.size_px.x, pixel / hits_.size_px.x);
-        for (const double x : {-kRasterSnap, kRasterSnap})
-            for (const double y : {-kRasterSnap, kRasterSnap})
-                if (!tracer_.sees_plane(consumer_, centre + glm::dvec2(x, y), hits_.triangle[pixel])) return false;
-        return true;
     }
 
     bool find_whole(std::size_t pixel, bool dark) const {

@@ -31,7 +31,7 @@ public:
           answers_(kQuestions * truth.scored.size()) {}
 
     bool is_certain(std::size_t pixel) const {
-        return answers_.get(kQuestions * pixel, [&] { return find_certain(pixel); });
+        return answers_.get(kQuestions * pixel, [&] { return shows_one_surface(tracer_, hits_, consumer_, truth_, pixel); });
     }
     bool is_wide(std::size_t pixel, bool dark) const {
         return answers_.get(kQuestions * pixel + (dark ? 1 : 2), [&] { return find_wide(pixel, dark); });
@@ -39,15 +39,6 @@ public:
 
 private:
     static constexpr std::size_t kQuestions = 3;  // per pixel: whether it is certain, wide shadow, wide light
-
-    bool find_certain(std::size_t pixel) const {
-        if (truth_.ambiguous[pixel]) return false;
-        const glm::dvec2 centre(pixel % hits_.size_px.x, pixel / hits_.size_px.x);
-        for (const double x : {-kRasterSnap, kRasterSnap})
-            for (const double y : {-kRasterSnap, kRasterSnap})
-                if (!tracer_.sees_plane(consumer_, centre + glm::dvec2(x, y), hits_.triangle[pixel])) return false;
-        return true;
-    }
 
     /// Tries the squares around the pixel, the one around its middle first.
     bool find_wide(std::size_t pixel, bool dark) const {

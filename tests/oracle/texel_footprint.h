@@ -33,4 +33,16 @@ inline glm::dvec3 toward(const LightItem& light, const ConsumerItem& consumer, c
     return glm::normalize(light.position_ws_m - consumer.position_ws_m + hits.camera_rel_m - point_rel_m);
 }
 
+/// Returns whether a pixel's truth is certain. It is not ambiguous, and the camera sees the same plane wherever snapping
+/// may move the pixel's centre.
+inline bool shows_one_surface(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
+                              const LightTruth& truth, std::size_t pixel) {
+    if (truth.ambiguous[pixel]) return false;
+    const glm::dvec2 centre(pixel % hits.size_px.x, pixel / hits.size_px.x);
+    for (const double x : {-kRasterSnap, kRasterSnap})
+        for (const double y : {-kRasterSnap, kRasterSnap})
+            if (!tracer.sees_plane(consumer, centre + glm::dvec2(x, y), hits.triangle[pixel])) return false;
+    return true;
+}
+
 }  // namespace gnomon::oracle

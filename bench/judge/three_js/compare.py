@@ -12,13 +12,15 @@ far plane its range or the scene. "best": of all tried settings the one with few
 """
 import argparse
 import json
-import struct
 import subprocess
 import sys
 import tarfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE.parent.parent.parent / "tests" / "e2e"))
+from game import glb_parts, write_glb  # noqa: E402
 AREA_SIDE = "16"
 TIMED_FRAMES = 15
 SIZES = (1024, 2048, 4096)
@@ -46,15 +48,10 @@ def fetch_three(version, out):
 
 def stand_still(file):
     """Takes motions, which are Gnomon's own extras, out of a GLB: three.js leaves everything where it rests."""
-    data = file.read_bytes()
-    length = struct.unpack_from("<I", data, 12)[0]
-    scene = json.loads(data[20:20 + length])
+    scene, binary = glb_parts(file)
     for node in scene["nodes"]:
         node.get("extras", {}).pop("motion", None)
-    text = json.dumps(scene).encode()
-    text += b" " * (-len(text) % 4)
-    rest = data[20 + length:]
-    file.write_bytes(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)
+    write_glb(file, scene, binary)
 
 
 def tried(quick):
