@@ -6,7 +6,7 @@ usage: summary.py [--most-s SECONDS --listed FILE] JUNIT[=FOLDER] ...
   FOLDER   GoogleTest's own results, a file NAME.xml for ctest's test NAME; counted test by test
   --most-s a test of the first JUNIT that takes longer counts as failed, unless a line of FILE matches its name, with a
            reason: NAME*  # reason. Those after it run under sanitizers, several times as long
-The last line printed is exactly `N passed, N failed, N skipped`.
+Above the last line stand the names of what failed. The last line printed is exactly `N passed, N failed, N skipped`.
 Exit status: 0 if at least one test passed and none failed, else 1. A missing or broken JUNIT counts as one failure.
 """
 import argparse
@@ -131,6 +131,9 @@ def main(arguments):
             print(f"FAILED {case.name}", *case.text.splitlines()[-FAILURE_LINES:], sep="\n    ")
     for name, reason in sorted({(case.name, case.text) for case in cases if case.kind == "skipped"}):
         print(f"skipped {name}: {reason}")
+    names = [case.name for case in cases + slow if case.kind == "failed"]
+    if names:  # again, in one line at the end, which is what a shortened log still shows
+        print("failed:", ", ".join(names))
     counts = {kind: sum(case.kind == kind for case in cases + slow) for kind in ("passed", "failed", "skipped")}
     print("{passed} passed, {failed} failed, {skipped} skipped".format(**counts))
     return 0 if counts["passed"] > 0 and counts["failed"] == 0 else 1

@@ -101,7 +101,8 @@ int run_accuracy(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
     if (!arguments.rows.empty()) return run_rows(*stage.value(), arguments);
-    const auto accuracy = measure_accuracy(*stage.value(), {.timed_frames = arguments.repeat, .area_side = arguments.area_side});
+    const auto accuracy = measure_accuracy(
+        *stage.value(), {.timed_frames = arguments.repeat, .with_edges = true, .area_side = arguments.area_side});
     if (!accuracy) return fail(accuracy.error());
     if (auto error = put_out(arguments, accuracy_table(accuracy.value()), accuracy_json(accuracy.value())))
         return fail(*error);
@@ -216,8 +217,7 @@ int run_pictures(const Arguments& arguments) {
 int run_judge(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
-    const auto judged =
-        judge_pictures(*stage.value(), {arguments.visibility, arguments.area_side, arguments.beside});
+    const auto judged = judge_pictures(*stage.value(), {arguments.visibility, arguments.area_side, arguments.beside});
     if (!judged) return fail(judged.error());
     if (auto error = put_out(arguments, judge_table(judged.value()), judge_json(judged.value()))) return fail(*error);
     return 0;

@@ -51,6 +51,7 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
 
 void judge_edges(const TracedPicture& picture, const oracle::CasterPieces& pieces, const EdgeBounds& bounds,
                  const AccuracyOptions& options, LightAccuracy& light) {
+    EdgeAccuracy& edges = light.edges.emplace();
     const std::uint32_t index = picture.light;
     const oracle::PrimaryHits& hits = picture.hits;
     const auto exceptions = [&](const oracle::TexelAt& texel_at) {
@@ -60,15 +61,15 @@ void judge_edges(const TracedPicture& picture, const oracle::CasterPieces& piece
     const auto texel_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
         return bounds.at(index, point, normal, options.telling);
     };
-    light.exceptions = exceptions(texel_at);
+    edges.exceptions = exceptions(texel_at);
     const auto promised_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
         return bounds.promised(index, point, normal, options.wished);
     };
-    if (light.report.keeps_max_error) light.contract = exceptions(promised_at);
+    if (light.report.keeps_max_error) edges.contract = exceptions(promised_at);
     const auto resolving_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
         return bounds.resolving(index, point, normal, options.telling);
     };
-    light.resolved = oracle::resolved_edges(picture.tracer, hits, picture.scene.consumers.front(),
+    edges.resolved = oracle::resolved_edges(picture.tracer, hits, picture.scene.consumers.front(),
                                             picture.scene.lights[index], picture.truth, light.metrics.edge,
                                             pieces.seen_from(picture.scene.lights[index]), resolving_at);
     const double stated_m = light.report.resolved.m * options.stating * (1.0 + kRounding);
@@ -77,8 +78,8 @@ void judge_edges(const TracedPicture& picture, const oracle::CasterPieces& piece
         if (picture.truth.scored[i] == 0) continue;
         const glm::dvec3 &point = hits.position_rel_m[i], &normal = hits.normal_ws[i];
         const double stated_px = bounds.stated_px(index, point, normal);
-        light.needs_wider += !rays && bounds.resolved_m(index, point, normal) > stated_m;
-        light.beyond_stated += stated_px > 0.0 && texel_at(point, normal).error_px > stated_px * (1.0 + kRounding);
+        edges.needs_wider += !rays && bounds.resolved_m(index, point, normal) > stated_m;
+        edges.beyond_stated += stated_px > 0.0 && texel_at(point, normal).error_px > stated_px * (1.0 + kRounding);
     }
 }
 
@@ -125,14 +126,15 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     accuracy.camera_ws_m = camera.position_ws_m;
     const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().fit_history());
     const std::vector<std::uint8_t> creases = oracle::creases(hits);
-    const oracle::CasterPieces pieces(tracer, snapshot, stage.library());
+    std::optional<oracle::CasterPieces> pieces;
+    if (options.with_edges) pieces.emplace(tracer, snapshot, stage.library());
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];
         if (is_left_out(light.report)) continue;
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
         const TracedPicture picture{tracer, hits, creases, snapshot, indices[k], light.truth};
-        judge_edges(picture, pieces, bounds, options, light);
+        if (pieces) judge_edges(picture, *pieces, bounds, options, light);
         light.far = errors_beyond_texels(picture, bounds, light.measured);
         if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
             light.promised = promised_errors(light);

@@ -33,24 +33,29 @@ struct AreaAccuracy {
     oracle::AreaMetrics metrics;
 };
 
+/// Against what the light states of its edges.
+struct EdgeAccuracy {
+    oracle::EdgeExceptions exceptions;  // edges farther off than predicted there, by name
+    oracle::EdgeExceptions contract;    // edges farther off than max_error_px, where the report states it is met
+    oracle::ResolvedEdges resolved;     // edges of what the map resolves, and how far off they are
+    std::size_t needs_wider = 0;        // scored pixels with a texel that resolves only wider casters than is stated: 0
+    std::size_t beyond_stated = 0;      // scored pixels with a larger bound than their view states for their slope: 0
+};
+
 struct LightAccuracy {
     LightReport report;  // report of the measured frame; is_left_out(): nothing below is counted
     oracle::Metrics metrics;
     std::vector<float> measured;               // visibility per pixel, as --visibility writes it
     oracle::LightTruth truth;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
-    oracle::EdgeExceptions exceptions;         // edges farther off than predicted there, by name
-    oracle::EdgeExceptions contract;           // edges farther off than max_error_px, where the report states it is met
-    oracle::ResolvedEdges resolved;            // edges of what the map resolves, and how far off they are
     oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
     std::optional<PromisedErrors>
-        promised;                 // errors that defaults are judged by; none if the filter softens by the source's size
-    std::size_t needs_wider = 0;  // scored pixels with a texel that resolves only wider casters than is stated: 0
-    std::size_t beyond_stated = 0;     // scored pixels with a larger bound than their view states for their slope: 0
-    std::optional<SoftAccuracy> soft;  // accuracy about a source with a size; empty: the light has none
-    std::optional<AreaAccuracy> area;  // empty: AccuracyOptions::area_side is 0
-    Spread gpu_us, cpu_us;             // shadow and lighting pass, economy off: every view drawn in every frame
-    std::size_t redrawn_differs = 0;   // pixels that changed when every view was drawn again; must be 0
+        promised;  // errors that defaults are judged by; none if the filter softens by the source's size
+    std::optional<EdgeAccuracy> edges;  // empty: AccuracyOptions::with_edges is false
+    std::optional<SoftAccuracy> soft;   // accuracy about a source with a size; empty: the light has none
+    std::optional<AreaAccuracy> area;   // empty: AccuracyOptions::area_side is 0
+    Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
+    std::size_t redrawn_differs = 0;    // pixels that changed when every view was drawn again; must be 0
 };
 
 struct Accuracy {
@@ -66,6 +71,7 @@ struct Accuracy {
 struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_ambiguous = true;
+    bool with_edges = false;      // judge edges: a square of rays at each, which takes longer than all else
     std::uint32_t area_side = 0;  // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
     double telling = 1.0;         // factor on predicted texels, see EdgeBounds::at()
     double stating = 1.0;  // factor on the stated width of what is resolved; below 1 shows how a broken one looks

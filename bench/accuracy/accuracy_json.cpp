@@ -62,18 +62,19 @@ void add_errors(const LightAccuracy& light, Json& json) {
                     {"unmeasured", m.edge.unmeasured}, {"mean_signed_px", m.edge.mean_signed_px},
                     {"mean_px", m.edge.mean_px},       {"p95_px", m.edge.p95_px},
                     {"p99_px", m.edge.p99_px},         {"max_px", m.edge.max_px}};
-    json["edge_exceptions"] = {{"sub_texel_caster", light.exceptions.sub_texel_caster},
-                               {"truth_ambiguous", light.exceptions.truth_ambiguous},
-                               {"unexplained", light.exceptions.unexplained}};
-    json["beyond_stated_px"] = light.beyond_stated;
-    json["resolved_edge"] = {{"places", light.resolved.places},
-                             {"unresolved", light.resolved.unresolved},
-                             {"truth_ambiguous", light.resolved.ambiguous},
-                             {"p99_px", light.resolved.p99_px},
-                             {"p999_px", light.resolved.p999_px},
-                             {"max_px", light.resolved.max_px},
+    const EdgeAccuracy edges = light.edges.value_or(EdgeAccuracy{});
+    json["edge_exceptions"] = {{"sub_texel_caster", edges.exceptions.sub_texel_caster},
+                               {"truth_ambiguous", edges.exceptions.truth_ambiguous},
+                               {"unexplained", edges.exceptions.unexplained}};
+    json["beyond_stated_px"] = edges.beyond_stated;
+    json["resolved_edge"] = {{"places", edges.resolved.places},
+                             {"unresolved", edges.resolved.unresolved},
+                             {"truth_ambiguous", edges.resolved.ambiguous},
+                             {"p99_px", edges.resolved.p99_px},
+                             {"p999_px", edges.resolved.p999_px},
+                             {"max_px", edges.resolved.max_px},
                              {"slack", slack_of(light)},
-                             {"needs_wider_px", light.needs_wider},
+                             {"needs_wider_px", edges.needs_wider},
                              {"as_stated", is_as_stated(light)}};
 }
 

@@ -42,8 +42,8 @@ void append_edges(const LightAccuracy& light, std::string& text) {
 }
 
 void append_resolved(const LightAccuracy& light, std::string& text) {
-    if (is_left_out(light.report)) return;
-    const oracle::ResolvedEdges& edges = light.resolved;
+    if (!light.edges) return;
+    const oracle::ResolvedEdges& edges = light.edges->resolved;
     const ResolvedWidth& width = light.report.resolved;
     text += formatted("%-18.18s %8zu %7.2f %8.2f %8.2f %8.2f %8.1f %9.2f %9.3g %8zu\n", light.report.name.c_str(),
                       edges.places, edges.p99_px, edges.p999_px, edges.max_px, light.report.predicted_error_px,
@@ -131,12 +131,14 @@ std::string accuracy_table(const Accuracy& accuracy) {
     append_soft(accuracy, text);
     append_area(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
-        if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
+        if (light.edges && light.edges->exceptions.beyond() > 0) {
+            const oracle::EdgeExceptions& e = light.edges->exceptions;
             text += formatted(
                 "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "
                 "truth_ambiguous %zu, unexplained %zu.\n",
                 light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster, e.truth_ambiguous,
                 e.unexplained);
+        }
     for (const LightAccuracy& light : accuracy.lights)
         if (const std::string broken = broken_words(light); !broken.empty())
             text += light.report.name + ": NOT AS STATED: " + broken + ".\n";

@@ -19,8 +19,8 @@ struct TracedLight {
     oracle::SoftTruth disk;                    // truth about disk_source(); empty: not computed
 };
 
-/// Returns whether a pixel is scored, and `measured` is on the other side of half lit than the truth. Below 0 or NaN: no
-/// surface was measured.
+/// Returns whether a pixel is scored, and `measured` is on the other side of half lit than the truth. Below 0 or NaN:
+/// no surface was measured.
 bool is_wrong(const TracedLight& light, std::size_t pixel, float measured);
 
 /// Truth that every row is compared with: of a scene that stands still, traced once.

@@ -8,18 +8,17 @@
 namespace gnomon::bench {
 namespace {
 
-/// Returns whether edges are counted. Penumbrae of a source with a size have none.
-bool has_edges(const LightAccuracy& light) {
-    return !is_left_out(light.report) && !light.soft && light.resolved.places > 0;
+/// Penumbrae of a source with a size have no edges.
+bool keeps_edges(const LightAccuracy& light) {
+    return !light.edges || light.soft || light.edges->resolved.places == 0 ||
+           light.edges->resolved.p999_px <= light.report.predicted_error_px;
 }
 
-bool keeps_edges(const LightAccuracy& light) {
-    return !has_edges(light) || light.resolved.p999_px <= light.report.predicted_error_px;
-}
+bool keeps_width(const LightAccuracy& light) { return !light.edges || light.edges->needs_wider == 0; }
 
 }  // namespace
 
-bool is_as_stated(const LightAccuracy& light) { return keeps_edges(light) && light.needs_wider == 0; }
+bool is_as_stated(const LightAccuracy& light) { return keeps_edges(light) && keeps_width(light); }
 
 bool fails_bench(const LightAccuracy& light) {
     const shadow::FilterRow& row = shadow::filter_row(light.report.filter.filter);
@@ -27,7 +26,7 @@ bool fails_bench(const LightAccuracy& light) {
 }
 
 double slack_of(const LightAccuracy& light) {
-    return light.report.predicted_error_px / std::max(light.resolved.p99_px, kLeastTold_px);
+    return light.report.predicted_error_px / std::max(light.edges ? light.edges->resolved.p99_px : 0.0, kLeastTold_px);
 }
 
 std::string broken_words(const LightAccuracy& light) {
@@ -35,10 +34,10 @@ std::string broken_words(const LightAccuracy& light) {
     if (!keeps_edges(light))
         text = formatted(
             "edges of what the map resolves are off by %.2f px at one place in a thousand, %.2f px are stated",
-            light.resolved.p999_px, light.report.predicted_error_px);
-    if (light.needs_wider > 0)
-        text += formatted("%s%zu pixels need a wider caster than %.3g m", text.empty() ? "" : "; ", light.needs_wider,
-                          light.report.resolved.m);
+            light.edges->resolved.p999_px, light.report.predicted_error_px);
+    if (!keeps_width(light))
+        text += formatted("%s%zu pixels need a wider caster than %.3g m", text.empty() ? "" : "; ",
+                          light.edges->needs_wider, light.report.resolved.m);
     return text;
 }
 

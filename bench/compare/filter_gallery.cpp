@@ -196,7 +196,7 @@ Result<FilterPictures> write_filter_pictures(Stage& stage, const std::filesystem
             if (!counted) return counted.error();
             taps = std::move(counted).value();
         }
-        const auto accuracy = measure_accuracy(stage, {0, true});
+        const auto accuracy = measure_accuracy(stage, {.timed_frames = 0});
         if (!accuracy) return accuracy.error();
         const std::vector<LightAccuracy>& lights = accuracy.value().lights;
         for (const LightAccuracy& light : lights) {

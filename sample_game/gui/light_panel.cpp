@@ -169,18 +169,19 @@ std::string filter_words(const FilterReport& filter) {
     return filter.reason == Reason::none ? name : name + " (" + reason_code(filter.reason) + ")";
 }
 
+/// Shows how far edges may be off, and from which width of casters on that counts; hovered, in words and in metres.
+void error_cell(const LightReport& light) {
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f from %.0f", light.predicted_error_px, light.resolved.px);
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("edges are at most %.2f px off\nof casters at least %.1f px (%.3g m) wide",
+                          light.predicted_error_px, light.resolved.px, light.resolved.m);
+    }
+}
+
 void draw_report(const FrameReport& report) {
-    constexpr std::array kColumns{"light",
-                                  "state",
-                                  "reason",
-                                  "filter",
-                                  "texels",
-                                  "KiB",
-                                  "draws",
-                                  "CPU us",
-                                  "GPU us",
-                                  "edges off, px",
-                                  "counts from, px (m)"};
+    constexpr std::array kColumns{"light", "state", "reason", "filter", "texels",
+                                  "KiB",   "draws", "CPU us", "GPU us", "edges off, px"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::CollapsingHeader("shadow of each light", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
@@ -205,10 +206,7 @@ void draw_report(const FrameReport& report) {
         count(light.counts.draws);
         time_cell(light.cpu_us);
         time_cell(light.gpu_us);
-        ImGui::TableNextColumn();
-        ImGui::Text("%.2f", light.predicted_error_px);
-        ImGui::TableNextColumn();
-        ImGui::Text("%.2f (%.3g)", light.resolved.px, light.resolved.m);
+        error_cell(light);
     }
     ImGui::EndTable();
 }

@@ -28,7 +28,7 @@ protected:
     static std::size_t beyond(const bench::LightAccuracy& light) {
         const auto& each = light.metrics.edge.each;
         return static_cast<std::size_t>(
-            std::count_if(light.resolved.each.begin(), light.resolved.each.end(),
+            std::count_if(light.edges->resolved.each.begin(), light.edges->resolved.each.end(),
                           [&](std::size_t i) { return each[i].off_px > light.report.predicted_error_px; }));
     }
     static void expect_stated(const std::string& scene, const std::string& setting, const bench::LightAccuracy& light) {
@@ -36,7 +36,7 @@ protected:
             std::find_if(std::begin(kExceptions), std::end(kExceptions), [&](const Exception& exception) {
                 return scene == exception.scene && setting == exception.setting && light.report.name == exception.light;
             });
-        EXPECT_EQ(light.needs_wider, 0u);
+        EXPECT_EQ(light.edges->needs_wider, 0u);
         if (named == std::end(kExceptions))
             EXPECT_EQ(bench::broken_words(light), "");
         else
@@ -60,9 +60,10 @@ protected:
                 std::printf("left out: no %s in the data folder\n", scene.file);
                 continue;
             }
-            for (const bench::LightAccuracy& light : measure(options).lights) {
+            for (const bench::LightAccuracy& light : measure_edges(options).lights) {
+                if (!light.edges) continue;
                 const char* what = scene.file ? scene.file : scene.camera;
-                const oracle::ResolvedEdges& edges = light.resolved;
+                const oracle::ResolvedEdges& edges = light.edges->resolved;
                 std::printf(
                     "%s %s %s: %zu places, %zu unresolved; p99 %.2f, p99.9 %.2f, stated %.2f px, from %.2f px\n", what,
                     settings.empty() ? "" : settings[0].c_str(), light.report.name.c_str(), edges.places,
@@ -79,7 +80,7 @@ protected:
 TEST_F(ResolvedEdges, AreWhereTheyAreStatedToBeAndTheStatementIsNotIdle) {
     std::vector<double> slack;
     each_light({}, [&](const bench::LightAccuracy& light) {
-        if (light.resolved.places >= kLeastPlaces) slack.push_back(bench::slack_of(light));
+        if (light.edges->resolved.places >= kLeastPlaces) slack.push_back(bench::slack_of(light));
     });
     ASSERT_GE(slack.size(), 9u);
     std::nth_element(slack.begin(), slack.begin() + slack.size() / 2, slack.end());
@@ -89,14 +90,14 @@ TEST_F(ResolvedEdges, AreWhereTheyAreStatedToBeAndTheStatementIsNotIdle) {
 TEST_F(ResolvedEdges, AreWhereTheyAreStatedToBeByCoarseTexelsToo) {
     for (const char* size : {"resolution=128", "resolution=256", "resolution=512"}) {
         std::size_t resolved = 0;
-        each_light({size}, [&](const bench::LightAccuracy& light) { resolved += light.resolved.places; });
+        each_light({size}, [&](const bench::LightAccuracy& light) { resolved += light.edges->resolved.places; });
         EXPECT_GT(resolved, 10000u) << size;
     }
 }
 
 TEST_F(ResolvedEdges, AreFoundWhereTheyAreNotStatedToBe) {
     const bench::StageOptions coarse = options_of(kTruthScenes[0], {"filter=hard", "resolution=512"});
-    for (bench::LightAccuracy light : measure(coarse).lights) {
+    for (bench::LightAccuracy light : measure_edges(coarse).lights) {
         EXPECT_TRUE(bench::is_as_stated(light)) << light.report.name;
         light.report.predicted_error_px = shadow::kWalk_px;  // texels do not walk
         EXPECT_FALSE(bench::is_as_stated(light)) << light.report.name;
@@ -106,7 +107,7 @@ TEST_F(ResolvedEdges, AreFoundWhereTheyAreNotStatedToBe) {
 TEST_F(ResolvedEdges, AreFoundWhereNarrowerCastersAreTakenForResolved) {
     const auto stage = open(options_of(kTruthScenes[0], {"resolution=256"}));
     ASSERT_TRUE(stage);
-    const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .telling = 0.25});
+    const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .with_edges = true, .telling = 0.25});
     ASSERT_TRUE(accuracy);
     for (bench::LightAccuracy light : accuracy.value().lights)
         EXPECT_FALSE(bench::is_as_stated(light)) << light.report.name;
@@ -115,10 +116,12 @@ TEST_F(ResolvedEdges, AreFoundWhereNarrowerCastersAreTakenForResolved) {
 TEST_F(ResolvedEdges, NeedNoWiderCasterThanIsStated) {
     const auto stage = open(options_of(kTruthScenes[0], {}));
     ASSERT_TRUE(stage);
-    const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .stating = 0.5});
+    const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .with_edges = true, .stating = 0.5});
     ASSERT_TRUE(accuracy);
-    for (const bench::LightAccuracy& light : accuracy.value().lights)
-        EXPECT_GT(light.needs_wider, 0u) << light.report.name;
+    for (const bench::LightAccuracy& light : accuracy.value().lights) {
+        ASSERT_TRUE(light.edges);
+        EXPECT_GT(light.edges->needs_wider, 0u) << light.report.name;
+    }
 }
 
 }  // namespace

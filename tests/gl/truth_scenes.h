@@ -15,7 +15,8 @@
 
 namespace gnomon {
 
-// The bounds that every light of every scene must meet with default settings, and no acne (bench/accuracy/default_limits.h).
+// The bounds that every light of every scene must meet with default settings, and no acne
+// (bench/accuracy/default_limits.h).
 inline constexpr double kMostWrong = bench::kMostWrongByDefault, kMostLeak = bench::kMostLeakByDefault;
 
 /// Scene with a camera, to compare bounds of edges with.
@@ -23,13 +24,12 @@ struct TruthScene {
     const char* file;  // below the data folder; null: the built-in one
     const char* camera;
 };
-inline constexpr TruthScene kTruthScenes[] = {
-    {nullptr, "main"},
-    {nullptr, "top"},
-    {nullptr, "low"},
-    {"sponza-crytek/Sponza.gltf", nullptr},
-    {"khronos-sample-models/Lantern/glTF/Lantern.gltf", nullptr},
-    {"khronos-sample-models/SciFiHelmet/glTF/SciFiHelmet.gltf", nullptr}};
+inline constexpr TruthScene kTruthScenes[] = {{nullptr, "main"},
+                                              {nullptr, "top"},
+                                              {nullptr, "low"},
+                                              {"sponza-crytek/Sponza.gltf", nullptr},
+                                              {"khronos-sample-models/Lantern/glTF/Lantern.gltf", nullptr},
+                                              {"khronos-sample-models/SciFiHelmet/glTF/SciFiHelmet.gltf", nullptr}};
 
 /// A folder that is gone at the end of the test.
 class TruthTest : public ::testing::Test {
@@ -51,9 +51,9 @@ protected:
         return std::move(stage).value();
     }
 
-    /// Without timings. Fails on any complaint of the driver.
-    static bench::Accuracy measure(bench::Stage& stage) {
-        auto accuracy = bench::measure_accuracy(stage, {.timed_frames = 0, .with_ambiguous = true});
+    /// Without timings, and without edges unless `options` has them. Fails on any complaint of the driver.
+    static bench::Accuracy measure(bench::Stage& stage, const bench::AccuracyOptions& options = {.timed_frames = 0}) {
+        auto accuracy = bench::measure_accuracy(stage, options);
         if (!accuracy) {
             ADD_FAILURE() << to_line(accuracy.error());
             return {};
@@ -64,6 +64,13 @@ protected:
     static bench::Accuracy measure(const bench::StageOptions& options) {
         const auto stage = open(options);
         return stage ? measure(*stage) : bench::Accuracy{};
+    }
+    static bench::Accuracy measure_edges(bench::Stage& stage) {
+        return measure(stage, {.timed_frames = 0, .with_edges = true});
+    }
+    static bench::Accuracy measure_edges(const bench::StageOptions& options) {
+        const auto stage = open(options);
+        return stage ? measure_edges(*stage) : bench::Accuracy{};
     }
 
 private:
