@@ -6,6 +6,7 @@ usage: check_pages.py [--bin FOLDER] [ROOT]  prints one line per fault; exit sta
 FOLDER has gnomon_game and gnomon_bench: with it, every flag of a command must be one that --help names, and --list every key.
 
 A figure that pages repeat is written <!-- figure: NAME -->4.8 %<!-- /figure -->: all of one name must be the same text.
+Each limit of docs/reference/limits.md has a test, which docs/contributors/reliability.md names.
 Pages about a file of JSON name it by <!-- json: NAME --> ... <!-- /json -->; test_pages.py compares their keys with a file.
 """
 import re
@@ -113,6 +114,50 @@ def wrong_figures(root, texts):
     return found
 
 
+# --- limits -----------------------------------------------------------------------------------------------------------
+
+LIMITS, THEIR_TESTS = "docs/reference/limits.md", "docs/contributors/reliability.md"
+TESTED = ("Numbers", "Precision and determinism")  # sections of which each row has a test
+GOOGLE_TEST = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)", re.MULTILINE)
+PYTHON_TEST = re.compile(r"^(?:class (\w+)|    def (test_\w+))", re.MULTILINE)
+
+
+def section_rows(text, section):
+    """First and second cell of each row of a section's table."""
+    match = re.search(r"^##+ %s\n(?P<text>.*?)(?=^##|\Z)" % re.escape(section), text, re.MULTILINE | re.DOTALL)
+    rows = re.findall(r"^\| (.+?) \| (.+?) \|", match["text"], re.MULTILINE) if match else []
+    return dict(rows[1:])
+
+
+def test_names(root):
+    """All tests of tests/, as Suite.Name, or as Class.test_name of Python."""
+    found = set()
+    for file in (root / "tests").rglob("*.cpp"):
+        found |= {"%s.%s" % names for names in GOOGLE_TEST.findall(file.read_text(encoding="utf-8", errors="replace"))}
+    for file in (root / "tests").rglob("test_*.py"):
+        owner = ""
+        for of_class, name in PYTHON_TEST.findall(file.read_text(encoding="utf-8")):
+            owner = of_class or owner
+            found |= {"%s.%s" % (owner, name)} if name else set()
+    return found
+
+
+def untested_limits(root):
+    """Limits without a test, entries without a limit, and tests that do not exist."""
+    limits, entries = ((root / page).read_text(encoding="utf-8") for page in (LIMITS, THEIR_TESTS))
+    known, found = test_names(root), []
+    for section in TESTED:
+        stated, tested = section_rows(limits, section), section_rows(entries, section)
+        found += [] if stated else ["%s: no table under '%s'" % (LIMITS, section)]
+        found += ["%s: '%s' has no test in %s" % (LIMITS, row, THEIR_TESTS) for row in stated if row not in tested]
+        found += ["%s: '%s' is no limit of %s" % (THEIR_TESTS, row, LIMITS) for row in tested if row not in stated]
+        for row, cell in tested.items():
+            names = re.findall(r"`([^`]+)`", cell)
+            found += [] if names else ["%s: '%s' names no test" % (THEIR_TESTS, row)]
+            found += ["%s: no test '%s'" % (THEIR_TESTS, name) for name in names if name not in known]
+    return found
+
+
 # --- commands ---------------------------------------------------------------------------------------------------------
 
 class Programs:
@@ -216,6 +261,8 @@ def faults(root, folder):
     texts = {page: page.read_text(encoding="utf-8") for page in pages.pages(root)}
     commands, count = wrong_commands(root, texts, Programs(root, folder))
     found = wrong_links(root, texts) + wrong_mentions(root) + unseen_pictures(root, texts) + far_pages(root, texts) + wrong_figures(root, texts) + commands
+    if (root / LIMITS).exists():
+        found += untested_limits(root)
     links = sum(1 for text in texts.values() for _ in pages.links(text))
     figures = sum(len(FIGURE.findall(text)) for text in texts.values())
     return found, "%d pages, %d links and pictures, %d commands, %d marked figures" % (len(texts), links, count, figures)
@@ -254,8 +301,42 @@ BENCH = "#!/bin/sh\nif [ $1 = frame ]; then echo '  --rounds N'; else echo '  fr
 SCRIPT = "#!/bin/sh\nprintf '  play [F]  plays\\n  test [--seed N]\\n  bench WHAT\\n\\n'\n"
 
 
-def self_test():
+# Limits with their tests, and changes that each make a fault.
+GOOD_LIMITS = {
+    LIMITS: "## Numbers\n| what | limit |\n|---|---|\n| cats | 8 |\n| dogs | 2 |\n## Precision and determinism\n| a | b |\n|---|---|\n| bits | same |\n",
+    THEIR_TESTS: "### Numbers\n| limit | tests |\n|---|---|\n| cats | `Cats.AreEight` |\n| dogs | `Dogs.test_two`, `Cats.AreEight` |\n"
+                 "### Precision and determinism\n| limit | tests |\n|---|---|\n| bits | `Cats.AreEight` |\n",
+    "tests/a_test.cpp": "TEST_F(Cats, AreEight) {}\n",
+    "tests/test_a.py": "class Dogs(Test):\n    def test_two(self):\n",
+}
+SPOILT_LIMITS = (
+    (LIMITS, "| dogs | 2 |", "| dogs | 2 |\n| mice | 3 |", "'mice' has no test"),
+    (LIMITS, "| dogs | 2 |\n", "", "'dogs' is no limit"),
+    (LIMITS, "## Numbers", "## Counts", "no table"),
+    (THEIR_TESTS, "| cats | `Cats.AreEight` |\n", "", "'cats' has no test"),
+    (THEIR_TESTS, "| cats | `Cats.AreEight` |", "| cats | – |", "names no test"),
+    (THEIR_TESTS, "`Dogs.test_two`", "`Dogs.test_too`", "no test 'Dogs.test_too'"),
+    ("tests/a_test.cpp", "AreEight", "AreNine", "no test 'Cats.AreEight'"),
+    ("tests/test_a.py", "class Dogs", "class Cats", "no test 'Dogs.test_two'"),
+)
+
+
+def missed_limits():
+    """Changes of SPOILT_LIMITS that are not found, each with what is."""
     missed = []
+    with tempfile.TemporaryDirectory() as name:
+        for file, before, after, expected in ((LIMITS, "", "", ""), *SPOILT_LIMITS):
+            for path, text in GOOD_LIMITS.items():
+                (Path(name) / path).parent.mkdir(parents=True, exist_ok=True)
+                (Path(name) / path).write_text(text.replace(before, after) if path == file else text, encoding="utf-8")
+            found = untested_limits(Path(name))
+            if bool(found) != bool(before) or not any(expected in line for line in found or [""]):
+                missed.append("'%s' in place of '%s' gives %s" % (after, before, found))
+    return missed
+
+
+def self_test():
+    missed = missed_limits()
     with tempfile.TemporaryDirectory() as name:
         root = Path(name)
         (root / "docs").mkdir()
@@ -279,7 +360,7 @@ def self_test():
             found, _ = faults(root, root / "bin")
             if bool(found) != bool(before) or not all(expected in line for line in found):
                 missed.append("'%s' in place of '%s' gives %s" % (after, before, found))
-    print(*missed, "%d spoilt, %d not found" % (len(SPOILT) + 2, len(missed)), sep="\n")
+    print(*missed, "%d spoilt, %d not found" % (len(SPOILT) + len(SPOILT_LIMITS) + 2, len(missed)), sep="\n")
     return 1 if missed else 0
 
 

@@ -121,7 +121,8 @@ const char* reason_text(Reason reason) {
         case Reason::visibility_kept:
             return "Visibility per pixel of an earlier frame is valid and was read.";
         case Reason::resolution_clamped:
-            return "The requested map is larger than the device allows: the largest possible one is used.";
+            return "The requested edge of a map is below 16 texels or above the device's limit: the nearest possible "
+                   "one is used.";
         case Reason::over_budget:
             return "The budget went to more visible lights: raise the budget, or use fewer lights.";
         case Reason::budget_shrunk:
@@ -159,7 +160,7 @@ const char* reason_text(Reason reason) {
         case Reason::range_invalid:
             return "near_m and far_m are no valid range: the fitted range is used.";
         case Reason::cascades_clamped:
-            return "More cascades were requested than a light can have.";
+            return "More than 8 cascades were requested: the light has 8.";
         case Reason::warp_unsupported:
             return "Warp needs a tight sun with one view and a fitted depth range: none is used.";
         case Reason::splits_invalid:
@@ -167,7 +168,8 @@ const char* reason_text(Reason reason) {
         case Reason::depths_unread:
             return "The picture's depths were unavailable: splits follow the receivers' bounds.";
         case Reason::filter_cut:
-            return "A setting of the filter is invalid, or beyond what its map allows: it was cut.";
+            return "A setting of the filter is invalid, or beyond its limit (docs/reference/limits.md) or its map's: "
+                   "it was cut.";
         case Reason::depth_coarse:
             return "The depth format's steps are wider than the map's texels: d32f is finer.";
         case Reason::count:

@@ -302,7 +302,10 @@ private:
 Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, const Gl45Options& options) {
     const int version = epoxy_is_desktop_gl() ? epoxy_gl_version() : 0;
     if (version < kNeededVersion) {
-        return Error{"the current context is not OpenGL 4.5 but " + get_string(GL_VERSION), {}, {}, "gl.version"};
+        return Error{"the current context is not OpenGL 4.5 (docs/reference/limits.md) but " + get_string(GL_VERSION),
+                     {},
+                     {},
+                     "gl.version"};
     }
     return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink), options)};
 }

@@ -136,7 +136,7 @@ Result<std::unique_ptr<Context>> make_headless_context(bool debug) {
         if (auto context = context_on(display, debug)) return context;
     }
     if (!any_display) return Error{"no EGL display can be opened without a window system", {}, {}, "egl.display"};
-    return Error{"no EGL display offers an OpenGL 4.5 core context", {}, {}, "egl.context"};
+    return Error{"no EGL display offers an OpenGL 4.5 core context (docs/reference/limits.md)", {}, {}, "egl.context"};
 }
 
 }  // namespace gnomon::platform

@@ -213,7 +213,7 @@ Result<std::unique_ptr<Window>> make_window(std::uint32_t width, std::uint32_t h
     GLFWwindow* window = create_window(width, height, name, debug, GLFW_LOSE_CONTEXT_ON_RESET);
     if (window == nullptr) window = create_window(width, height, name, debug, GLFW_NO_ROBUSTNESS);
     if (window == nullptr) {
-        Error error = glfw_error("no window with an OpenGL 4.5 core context", "glfw.window");
+        Error error = glfw_error("no window with an OpenGL 4.5 core context (docs/reference/limits.md)", "glfw.window");
         glfwTerminate();
         return error;
     }

@@ -163,7 +163,7 @@ enum class Status : std::uint8_t {
     // The light has maps.
     fitted,              // as requested
     error_above_target,  // no map that the device has meets max_error_px and narrowest_caster_px
-    resolution_clamped,  // the device's limit is below the requested size
+    resolution_clamped,  // the requested size is below 16 texels or above the device's limit
     cascades_clamped,    // more cascades than a light can have
     splits_invalid,      // split_m, split_lambda or blend is invalid: the default is used
     range_invalid,       // near_m and far_m are no range: the fitted one is used

@@ -118,8 +118,8 @@ struct LightShadow {
     /// Width of the narrowest caster that must count, at its receiver across the light, pixels, 0 to 10 000. 0: any.
     /// Smaller: larger maps, or exact. Set it where fences, leaves or wires must not be lost.
     float narrowest_caster_px = 0.0f;
-    /// Edge of one map, cascade or cube face, texels, 0 to 65 536. 0: chosen by the system for max_error_px. Set it to
-    /// fix the memory; more than the device allows is reported (resolution_clamped).
+    /// Edge of one map, cascade or cube face, texels, 16 to the device's limit. 0: chosen for max_error_px. Set it to
+    /// fix the memory. Other sizes become the nearest possible one, which is reported (resolution_clamped).
     std::uint32_t resolution_px = 0;
     /// Number of a sun's cascades, 0 to kMaxCascades. 0: as few as meet the target, one to four. More: finer shadows
     /// near the camera, and more draws.

@@ -24,7 +24,7 @@ enum class Reason : std::uint8_t {
     /// The default filter's maps miss max_error_px or narrowest_caster_px: the light has a filter that meets them.
     map_too_coarse,
     visibility_kept,     // visibility per pixel from an earlier frame is still valid
-    resolution_clamped,  // the device's limit is below the requested size
+    resolution_clamped,  // the requested size is below 16 texels or above the device's limit
     over_budget,         // dropped by the budget in favour of more visible lights
     budget_shrunk,       // reduced by the budget
     ray_budget,          // the budget has no rays left for an exact light: it has a filtered map instead

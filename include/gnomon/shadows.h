@@ -179,8 +179,9 @@ struct Mask {
     /// covers: findLSB(gl_SampleMaskIn[0]).
     std::uint32_t samples = 1;
     /// Reason why the view could not be read, or its mask not made; empty: none. "view.projection", "view.size",
-    /// "view.depth", "view.normals", "context.other" (not that of create()), "instances_full", or the device's:
-    /// "out_of_memory", "invalid_value", "incomplete_target", "compile_failed", "link_failed", "context_lost".
+    /// "view.depth", "view.normals", "view.lights", "context.other" (not that of create()), "instances_full", or the
+    /// device's: "out_of_memory", "invalid_value", "incomplete_target", "compile_failed", "link_failed",
+    /// "context_lost". "view.lights": lights times samples exceed the device's layers; name fewer in View::lights.
     std::string_view failure = {};
 };
 

@@ -137,12 +137,16 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     consumer_layers.pop_back();
 }
 
-/// Lists the light of each layer of a view's mask, as an index of the updated snapshot.
+/// Lists the light of each layer of a view's mask, as an index of the updated snapshot. A mask with more layers than
+/// the device's textures have is a failure of that view.
 void Shadows::State::list_layers(const View& view, ViewState& state) const {
     state.layers.clear();
     for (const LightId light : view.lights) state.layers.push_back(store.light_index(light));
-    if (!view.lights.empty()) return;
-    for (std::uint32_t i = 0; i < store.snapshot().lights.size(); ++i) state.layers.push_back(i);
+    if (view.lights.empty())
+        for (std::uint32_t i = 0; i < store.snapshot().lights.size(); ++i) state.layers.push_back(i);
+    const std::size_t samples = std::max<std::size_t>(state.picture.samples.size(), 1);
+    if (state.failure.empty() && state.wants_mask && state.layers.size() * samples > device->info().max_layers)
+        state.failure = "view.lights";
 }
 
 /// Records the mask of each view of a group.
@@ -151,7 +155,7 @@ void Shadows::State::record_masks(ViewGroup& group) {
     gl::Failure worst = gl::Failure::none;
     for (std::size_t c = 0; c < group.views.size() && c < frame.inputs.size(); ++c) {
         ViewState& view = *views[group.views[c]];
-        if (!view.wants_mask) continue;
+        if (!view.wants_mask || !view.failure.empty()) continue;
         view.mask.record({frame.inputs[c], group.scene(), gpu, view.picture, view.layers}, commands, group.outcome);
         view.failure = code(group.outcome.failure);
         if (group.outcome.failure != gl::Failure::none) worst = group.outcome.failure;

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -144,7 +145,7 @@ BlockText block_text(std::span<const gl::GlslLibrary::Member> members, const std
     return text;
 }
 
-Error refused(const char* rule, const char* what) { return {what, {}, {}, rule}; }
+Error refused(const char* rule, std::string what) { return {std::move(what), {}, {}, rule}; }
 
 std::string filter_calls(const std::vector<std::string>& filters, Names& roots) {
     std::string text;
@@ -256,7 +257,8 @@ std::string records_text(const gl::GlslLibrary& library, const RowNames& names, 
 
 Result<std::string> lookup_glsl(const LookupBindings& bindings, const LookupRows& rows) {
     if (bindings.texture_unit_count < kLeastTextureUnits)
-        return refused("lookup.bindings", "lookups of all lights need more texture units");
+        return refused("lookup.bindings", "lookups of all lights need " + std::to_string(kLeastTextureUnits) +
+                                              " texture units at least (docs/reference/limits.md)");
     if (rows.filters.empty() || !std::all_of(rows.filters.begin(), rows.filters.end(), can_evaluate))
         return refused("lookup.rows", "lookups of all lights have filters that read depths alone");
     if (!rows.suns && !rows.warped_suns && !rows.cones && !rows.cubes)

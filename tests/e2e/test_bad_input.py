@@ -3,7 +3,7 @@ import json
 import os
 import unittest
 
-from game import GameTest, glb_parts, main, read_bytes, write_glb
+from game import GameTest, Picture, glb_parts, main, read_bytes, write_glb
 
 
 class BadInput(GameTest):
@@ -149,7 +149,21 @@ class BadInput(GameTest):
 
     def test_a_device_without_opengl_4_5(self):
         env = dict(os.environ, MESA_GL_VERSION_OVERRIDE="3.3", MESA_LOADER_DRIVER_OVERRIDE="", LIBGL_ALWAYS_SOFTWARE="1")
-        self.assert_refused("--headless", "--size", "64x64", env=env)
+        text = self.assert_refused("--headless", "--size", "64x64", env=env, mentions="docs/reference/limits.md")
+        self.assertIn("OpenGL 4.5", text)
+
+    def test_a_device_with_opengl_4_5_and_no_extension_draws(self):
+        absent = "-GL_ARB_shader_viewport_layer_array -GL_EXT_texture_filter_anisotropic -GL_ARB_texture_filter_anisotropic"
+        env = dict(os.environ, MESA_GL_VERSION_OVERRIDE="4.5", MESA_EXTENSION_OVERRIDE=absent, LIBGL_ALWAYS_SOFTWARE="1")
+        draws = []
+        for each, name in ((dict(env, MESA_EXTENSION_OVERRIDE=""), "with"), (env, "without")):
+            args = ("--size", "64x64", "--set", "cube_route=layered_vertex", "--stats", self.path(name + ".json"))
+            done = self.call("--headless", "--screenshot", self.path(name + ".png"), *args, env=each)
+            self.assertEqual(done.returncode, 0, done.stderr.decode(errors="replace"))
+            with open(self.path(name + ".json"), encoding="utf-8") as text:
+                draws.append({l["name"]: l["draws"] for l in json.load(text)["frames"][0]["lights"]})
+        self.assertEqual(Picture(self.path("with.png")).rgba, Picture(self.path("without.png")).rgba)
+        self.assertGreater(draws[1]["lantern"], draws[0]["lantern"], "control: the extension was there, and is absent")
 
 
 if __name__ == "__main__":

@@ -29,6 +29,21 @@ class Scenes(GameTest):
         for name in outputs[0]:
             self.assertEqual(outputs[0][name], outputs[1][name], name + " differs between two runs")
 
+    def test_threads_of_the_software_device_change_no_bit(self):
+        outputs = []
+        for threads in ("0", "1", "3"):
+            folder = self.path("threads" + threads)
+            os.mkdir(folder)
+            env = dict(os.environ, LP_NUM_THREADS=threads, LIBGL_ALWAYS_SOFTWARE="1")
+            done = self.call("--headless", "--frames", 3, "--time", 1.5, "--size", SMALL, "--set", "splits=sampled",
+                             "--screenshot", os.path.join(folder, "p.png"), "--visibility", folder, env=env)
+            self.assertEqual(done.returncode, 0, done.stderr.decode(errors="replace"))
+            outputs.append({name: read_bytes(os.path.join(folder, name)) for name in sorted(os.listdir(folder))})
+        self.assertEqual(sorted(outputs[0]), ["guard_lamp.pfm", "lantern.pfm", "p.png", "sun.pfm"])
+        for name in outputs[0]:
+            for other in outputs[1:]:
+                self.assertEqual(outputs[0][name], other[name], name)
+
     def test_the_generated_file_is_the_built_in_scene(self):
         scene = self.make_scene("courtyard.glb")
         self.run_game("--size", SMALL, "--screenshot", self.path("built_in.png"))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/gpu_scene.h"
 #include "tests/gl/device_fixture.h"
 
 namespace gnomon {
@@ -22,7 +23,12 @@ TEST_F(DeviceResources, InfoNamesTheRendererAndItsLimits) {
     // Who asks for a 4.5 core context may be given any later one.
     EXPECT_THAT(device().info().name, ::testing::AnyOf(HasSubstr("OpenGL 4.5"), HasSubstr("OpenGL 4.6")));
     EXPECT_GE(device().info().max_texture_px, 4096u);
-    EXPECT_GE(device().info().max_layers, 256u);
+    EXPECT_GE(device().info().max_layers, 2048u) << "guaranteed by OpenGL";
+    EXPECT_GE(device().info().max_texel_bytes, 65536u * gl::kTexelBytes) << "guaranteed by OpenGL";
+    constexpr std::uint64_t kMillions = 2000000;
+    if (device().info().is_software) {
+        EXPECT_GE(device().info().max_texel_bytes, kMillions * sizeof(InstanceRecord));
+    }
     EXPECT_GT(device().info().uniform_alignment, 0u);
     EXPECT_EQ(device().info().is_software, device().info().name.find("llvmpipe") != std::string::npos);
 }

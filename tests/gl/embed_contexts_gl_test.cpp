@@ -112,6 +112,28 @@ TEST_F(EmbedContexts, RenderingInAnotherIsRefused) {
     }
 }
 
+TEST_F(EmbedContexts, OneWithoutOpenGl45IsRefusedByNameAndPage) {
+    const EGLDisplay display = eglGetCurrentDisplay();
+    const EGLContext own = eglGetCurrentContext();
+    const EGLSurface surface = eglGetCurrentSurface(EGL_DRAW);
+    ASSERT_EQ(eglBindAPI(EGL_OPENGL_ES_API), EGLBoolean{EGL_TRUE});
+    constexpr EGLint kEs3[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+    const EGLContext es = eglCreateContext(display, nullptr, EGL_NO_CONTEXT, kEs3);
+    const bool entered = es != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, es) == EGL_TRUE;
+    std::string rule, message;
+    if (entered) {
+        const auto made = Shadows::create();
+        if (!made) rule = made.error().rule, message = made.error().message;
+    }
+    eglBindAPI(EGL_OPENGL_API);
+    eglMakeCurrent(display, surface, surface, own);
+    if (es != EGL_NO_CONTEXT) eglDestroyContext(display, es);
+    if (!entered) GTEST_SKIP() << "no context of OpenGL ES here";
+    EXPECT_EQ(rule, "gl.version");
+    EXPECT_THAT(message, ::testing::AllOf(::testing::HasSubstr("not OpenGL 4.5"), ::testing::HasSubstr("docs/reference/limits.md"), ::testing::HasSubstr("OpenGL ES")));
+    EXPECT_GT(masked().size(), 0u) << "back in its own context it goes on";
+}
+
 TEST_F(EmbedContexts, DestroyedInAnotherItLeavesThatOnesObjectsAlone) {
     masked();
     shadows->set_budget({.gpu_ms = 5.0f});  // with timers

@@ -194,6 +194,52 @@ TEST_F(EmbedScene, ViewsAtOnceShowWhatEachShowsAlone) {
     EXPECT_LT(differing(layer_of(shadows->render(from_behind), 0), second), kFewPixels);
 }
 
+TEST_F(EmbedScene, FromThe32ndOnViewsShowWhatEachShowsAlone) {
+    others.push_back(std::make_unique<Engine>(Depths::usual_float));
+    add_lit_room();
+    draw_depths(view, *engine);
+    View from_behind = view;
+    from_behind.world_from_view = glm::inverse(glm::lookAt(glm::dvec3(-3.0, 2.0, -2.0), glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
+    from_behind.normal_texture = others.front()->normals;
+    draw_depths(from_behind, *others.front());
+    std::vector<View> many(34, view);
+    many[31] = many[33] = from_behind;
+    std::vector<std::vector<std::uint8_t>> seen;
+    for (const Mask& mask : shadows->render(many)) seen.push_back(layer_of(mask, 0));
+    ASSERT_EQ(seen.size(), many.size());
+    const std::vector<std::uint8_t> first = layer_of(shadows->render(view), 0), behind = layer_of(shadows->render(from_behind), 0);
+    EXPECT_GT(differing(first, behind), 1000u);
+    for (const std::size_t i : {0u, 30u, 31u, 32u, 33u}) EXPECT_LT(differing(seen[i], i % 2 == 1 ? behind : first), kFewPixels) << i;
+}
+
+TEST_F(EmbedScene, AMaskHasAsManyLayersAsTheDeviceHasAndMoreAreRefusedAlone) {
+    add_lit_room();
+    const std::vector<std::uint8_t> good = masked();
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+    ASSERT_GE(most, 2048);
+    std::vector<LightId> lights(static_cast<std::size_t>(most));
+    View full = view;
+    full.size_px = {8, 8};
+    full.lights = lights;
+    const View both[] = {full, view};
+    if (device().info().is_software) {
+        EXPECT_EQ(shadows->render(both)[0].failure, "");
+        EXPECT_EQ(shadows->render(both)[0].layers, lights.size());
+    }
+    lights.emplace_back();
+    View over = full, without = full;
+    over.lights = without.lights = lights;
+    without.wants_mask = false;
+    const View three[] = {over, view, without};
+    const auto masks = shadows->render(three);
+    EXPECT_EQ(masks[0].failure, "view.lights");
+    EXPECT_EQ(masks[0].texture, 0u);
+    EXPECT_LT(differing(layer_of(masks[1], 0), good), kFewPixels) << "another view is unharmed";
+    EXPECT_EQ(masks[2].failure, "") << "without a mask any number is looked up";
+    EXPECT_LT(differing(masked(), good), kFewPixels);
+}
+
 TEST_F(EmbedScene, AFlatViewIsThatOfTheFrame) {
     add_room();
     add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});

@@ -251,6 +251,18 @@ TEST_F(MeasuredExposure, IsNotWaitedForAndNoMoreThanThreeAreUnderWay) {
     EXPECT_TRUE(left_out("faint"));
 }
 
+TEST_F(MeasuredExposure, OfARepeatableRunIsKnownInTheNextFrameHoweverLateTheDeviceIs) {
+    answer(exposure_of(0.02, kFaint_cd));
+    device.delay_readbacks(5);
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    step();
+    EXPECT_FALSE(left_out("faint"));
+    step();
+    EXPECT_TRUE(left_out("faint"));
+}
+
 TEST_F(MeasuredExposure, ThatIsLostOrOfAnotherCameraOrAbsurdLeavesNoLightOut) {
     const double exposure = exposure_of(0.02, kFaint_cd);
     answer(exposure);

@@ -48,6 +48,14 @@ TEST(Reasons, AllAreDocumented) {
             << reason_code(reason);
 }
 
+TEST(Reasons, OfLimitsNameThem) {
+    using ::testing::HasSubstr;
+    EXPECT_THAT(reason_text(Reason::cascades_clamped),
+                HasSubstr("the light has " + std::to_string(kMaxCascades) + "."));
+    EXPECT_THAT(reason_text(Reason::resolution_clamped), HasSubstr("below 16 texels or above the device's limit"));
+    EXPECT_THAT(reason_text(Reason::filter_cut), HasSubstr("docs/reference/limits.md"));
+}
+
 /// The smallest scene with a shadow, and what is wrong with it.
 class ReasonScenes : public FrameTest {
 protected:

@@ -108,6 +108,19 @@ TEST_F(SampledDepthsTest, AreLateWithoutWaitingAndNoMoreThanThreeAreUnderWay) {
     EXPECT_EQ(recorded<gl::Dispatch>().size(), 1u) << "a slot has become free";
 }
 
+TEST_F(SampledDepthsTest, OfARepeatableRunAreThereInTheNextFrameHoweverLateTheDeviceIs) {
+    answer(k4m, k16m);
+    for (const std::uint64_t late : {0u, 5u}) {
+        frame.reset();
+        start();
+        device.delay_readbacks(late);
+        step();
+        EXPECT_FALSE(knows()) << late;
+        step();
+        EXPECT_TRUE(knows()) << late;
+    }
+}
+
 TEST_F(SampledDepthsTest, AreForgottenWhenNobodyAsksAnyMore) {
     answer(k4m, k16m);
     step();

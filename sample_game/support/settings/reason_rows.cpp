@@ -18,7 +18,7 @@ constexpr ReasonRow kRows[] = {
     {Reason::refresh_held, "reused", "lower refresh_error_px, or raise the budget"},
     {Reason::map_too_coarse, "in filter", "raise max_error_px or narrowest_caster_px, or name a filter, if that costs too much"},
     {Reason::visibility_kept, "in kept", ""},
-    {Reason::resolution_clamped, "degraded", "request less"},
+    {Reason::resolution_clamped, "degraded", "request 16 at least, and no more than the device has"},
     {Reason::over_budget, "skipped", "raise the budget, or use fewer lights"},
     {Reason::budget_shrunk, "degraded", "raise the budget, or use fewer lights"},
     {Reason::ray_budget, "degraded", "raise the budget's rays"},

@@ -105,6 +105,15 @@ TEST_F(CoreStatus, SaysWhatWasChanged) {
     }
 }
 
+TEST_F(CoreStatus, SentencesOfLimitsNameThem) {
+    EXPECT_NE(std::string(sentence(Status::cascades_clamped)).find("the light has " + std::to_string(kMostCascades) + "."), std::string::npos);
+    EXPECT_NE(std::string(sentence(Status::resolution_clamped)).find("below 16 texels"), std::string::npos);
+    own.lights[0].shadow.resolution_px = 15;
+    run();
+    EXPECT_EQ(status(0), Status::resolution_clamped);
+    EXPECT_EQ(fits.lights()[0].map_px, 16u);
+}
+
 TEST_F(CoreStatus, KeepsToTheDevicesSizes) {
     for (Light& light : own.lights) light.shadow.max_error_px = 0.01f;
     run({.max_map_px = 512, .max_cube_px = 128});

@@ -42,6 +42,16 @@ TEST(LookupRows, UnitsFollowOneAnother) {
     EXPECT_EQ(units_of({.texture_unit_count = 0}).arrays, 0u);
 }
 
+TEST(LookupRows, FiveUnitsAreEnoughForOneArrayAndFewerAreRefusedWithTheNumberAndThePage) {
+    EXPECT_EQ(units_of({.texture_unit_count = 5}).arrays, 1u);
+    EXPECT_TRUE(lookup_glsl({.texture_unit_count = 5}));
+    EXPECT_EQ(units_of({.texture_unit_count = 4}).arrays, 0u);
+    const auto few = lookup_glsl({.texture_unit_count = 4});
+    ASSERT_FALSE(few);
+    EXPECT_EQ(few.error().rule, "lookup.bindings");
+    EXPECT_THAT(few.error().message, ::testing::AllOf(::testing::HasSubstr(" 5 texture units"), ::testing::HasSubstr("docs/reference/limits.md")));
+}
+
 TEST(LookupGlsl, TheSameArgumentsGiveTheSameTextAndOthersAnother) {
     const std::string text = lookup_glsl({}).value();
     EXPECT_EQ(lookup_glsl({}).value(), text);

@@ -128,9 +128,29 @@ TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {
     EXPECT_EQ(demands[1].note, Reason::none);
     EXPECT_EQ(demands[2].map.resolution_px, 4096u) << "cubes have a limit of their own";
     EXPECT_EQ(demands[2].note, Reason::resolution_clamped);
-    scene.lights[1].shadow.resolution_px = 1;
-    EXPECT_EQ(decide()[1].note, Reason::resolution_clamped);
-    EXPECT_GT(demands[1].map.resolution_px, 1u);
+    for (const std::uint32_t beyond_px : {8193u, 65536u, 4000000000u}) {
+        scene.lights[1].shadow.resolution_px = beyond_px;
+        EXPECT_EQ(decide()[1].note, Reason::resolution_clamped) << beyond_px;
+        EXPECT_EQ(demands[1].map.resolution_px, 8192u) << beyond_px;
+    }
+    scene.lights[1].shadow.resolution_px = 16;
+    EXPECT_EQ(decide()[1].note, Reason::none);
+    EXPECT_EQ(demands[1].map.resolution_px, 16u);
+    for (const std::uint32_t below_px : {1u, 15u}) {
+        scene.lights[1].shadow.resolution_px = below_px;
+        EXPECT_EQ(decide()[1].note, Reason::resolution_clamped) << below_px;
+        EXPECT_EQ(demands[1].map.resolution_px, 16u) << below_px;
+    }
+}
+
+TEST_F(DemandTest, ASunChoosesFourCascadesAtMostWhateverItsTarget) {
+    for (const float target_px : {0.0f, 1.0f, 0.1f, 1e-6f}) {
+        scene.lights[0].shadow.max_error_px = target_px;
+        EXPECT_LE(decide()[0].map.view_count, 4u) << target_px;
+        EXPECT_LE(demands[0].limits.max_views, 4u) << target_px;
+    }
+    scene.lights[0].shadow.cascades = 5;
+    EXPECT_EQ(decide()[0].map.view_count, 5u) << "control: more are given where they are requested";
 }
 
 TEST_F(DemandTest, AWideConeGetsFiveFacesInsteadOfOneView) {

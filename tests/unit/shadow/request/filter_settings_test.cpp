@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "systems/shadow/request/filter_table.h"
@@ -117,6 +118,30 @@ TEST(FilterSettings, ASourceThatIsAbsurdIsCutAndReported) {
             EXPECT_TRUE(filter.source_radius_m >= 0.0f && filter.source_radius_m <= kMostSourceRadius_m);
             EXPECT_TRUE(filter.sun_radius_tan >= 0.0f && filter.sun_radius_tan < 1.0f);
         }
+}
+
+TEST(FilterSettings, EachIsTakenUpToItsLimitAndCutToItBeyond) {
+    using Kernel = ShadowTuning::Kernel;
+    const auto settings = [](ShadowFilter filter, const Kernel& kernel) { return filter_settings(of(filter, kernel), kMap_px); };
+    for (const bool beyond : {false, true}) {
+        SCOPED_TRACE(beyond);
+        const FilterSettings size = settings(ShadowFilter::pcf_grid, {.size_texel = beyond ? 33u : 31u});
+        EXPECT_EQ(size.size, 31u);
+        EXPECT_EQ(size.cut, beyond);
+        const FilterSettings taps = settings(ShadowFilter::poisson, {.taps = beyond ? 33u : 32u});
+        EXPECT_EQ(taps.taps, 32u);
+        EXPECT_EQ(taps.cut, beyond);
+        const FilterSettings spread = settings(ShadowFilter::poisson, {.spread_texel = beyond ? 16.5f : 16.0f});
+        EXPECT_EQ(spread.spread_texel, 16.0f);
+        EXPECT_EQ(spread.cut, beyond);
+        const FilterSettings lamp = filter_settings(sized(LightKind::point, beyond ? 1.001e4f : 1.0e4f), kMap_px);
+        EXPECT_EQ(lamp.source_radius_m, 1.0e4f);
+        EXPECT_EQ(lamp.cut, beyond);
+        constexpr float kThirtyDegrees_rad = 0.523598f;
+        const FilterSettings sun = filter_settings(sized(LightKind::directional, kThirtyDegrees_rad * (beyond ? 1.01f : 1.0f)), kMap_px);
+        EXPECT_NEAR(sun.sun_radius_tan, std::tan(kThirtyDegrees_rad), 2e-6f);
+        EXPECT_EQ(sun.cut, beyond);
+    }
 }
 
 TEST(FilterSettings, NumbersThatAreNoneGiveWayToTheDefaultsAndAreReported) {

@@ -210,6 +210,26 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
     }
 }
 
+TEST(LightSettings, LimitsAreTakenAndTheErrorOfMoreNamesThem) {
+    const struct {
+        const char *most, *beyond, *allowed;
+    } rows[] = {{"resolution=65536", "resolution=65537", "resolution takes 0 ... 65536 (px)"},
+                {"cascades=8", "cascades=9", "cascades takes 0 ... 8"},
+                {"layers=255", "layers=256", "layers takes 0 ... 255"},
+                {"filter_size=31", "filter_size=33", "filter_size takes 1 ... 31, odd"},
+                {"filter_taps=32", "filter_taps=33", "filter_taps takes 1 ... 32"},
+                {"filter_spread_texel=16", "filter_spread_texel=16.5", "filter_spread_texel takes 0 ... 16 (texels)"},
+                {"source_radius_m=10000", "source_radius_m=10001", "source_radius_m takes 0 ... 1e4 (m)"},
+                {"sun_radius_deg=30", "sun_radius_deg=30.1", "sun_radius_deg takes 0 ... 30 (degrees)"}};
+    for (const auto& row : rows) {
+        LightSettings settings;
+        EXPECT_FALSE(apply_setting(settings, row.most)) << row.most;
+        const auto error = apply_setting(settings, row.beyond);
+        ASSERT_TRUE(error) << row.beyond;
+        EXPECT_THAT(error->message, HasSubstr(row.allowed)) << row.beyond;
+    }
+}
+
 TEST(LightSettings, AMetreValueSwitchesTheBiasToConstantAndAutomaticSwitchesBack) {
     LightSettings settings;
     EXPECT_FALSE(apply_setting(settings, "bias=0.02"));
