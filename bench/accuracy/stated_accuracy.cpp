@@ -8,7 +8,7 @@
 namespace gnomon::bench {
 namespace {
 
-/// Penumbrae of a source with a size have no edges.
+/// Returns whether edges are as near as stated. Penumbrae of a source with a size have none.
 bool keeps_edges(const LightAccuracy& light) {
     return !light.edges || light.soft || light.edges->resolved.places == 0 ||
            light.edges->resolved.p999_px <= light.report.predicted_error_px;

@@ -130,7 +130,7 @@ protected:
 };
 
 TEST_F(EconomyIdentityGl, EveryLightsVisibilityIsThatOfEconomyOffToTheBit) {
-    const int frames = is_long_run() ? 1000 : 300;
+    const int frames = is_long_run() ? 500 : 300;
     EXPECT_EQ(play(frames), 0u);
     EXPECT_EQ(lost, 0u) << "pixels that rays find dark, of lights that were skipped";
     // The run did what it is for.

@@ -2,18 +2,17 @@
 #include <iostream>
 
 #include "tests/gl/gl_test_context.h"
-#include "tests/long_run.h"
 #include "tests/soak/soak_world.h"
 #include "tests/unit/math/random_seed.h"
 
-// The same long life as on the recording device, on the real one. In a long run for as many frames.
+// The same long life as on the recording device, on the real one.
 namespace gnomon {
 namespace {
 
 /// llvmpipe compiles a program once more for every combination of formats, sizes and states that it is used with, some
 /// 200 KiB each time, and the rarest of them come late: in 100 000 frames the last after 40 000. So the first half of
-/// the frames warms up, and the second may meet five more, or two in a long run.
-constexpr std::size_t kMostGrowth_bytes = 1u << 20, kMostLongGrowth_bytes = 1u << 19;
+/// the frames warms up, and the second may meet five more.
+constexpr std::size_t kMostGrowth_bytes = 1u << 20;
 
 class GlSoak : public GlTest {
 protected:
@@ -57,22 +56,21 @@ protected:
 };
 
 TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
-    const bool is_long = is_long_run();
-    const std::size_t frames = is_long ? 6000 : 3000;
+    constexpr std::size_t kFrames = 3000;
     world.use_everything([this] { step(); });
     const std::size_t baseline = objects_when_empty();
-    churn(frames);
+    churn(kFrames);
     EXPECT_EQ(objects_when_empty(), baseline);
     const std::size_t bytes_before = held_bytes();
 
-    churn(frames);
+    churn(kFrames);
 
     EXPECT_EQ(objects_when_empty(), baseline);
     const std::size_t bytes_after = held_bytes();
     EXPECT_EQ(failures, 0);
-    EXPECT_LE(bytes_after, bytes_before + (is_long ? kMostLongGrowth_bytes : kMostGrowth_bytes));
+    EXPECT_LE(bytes_after, bytes_before + kMostGrowth_bytes);
     const auto growth = static_cast<std::int64_t>(bytes_after) - static_cast<std::int64_t>(bytes_before);
-    std::cout << frames << " frames after as many on " << device().info().name << ", held memory grew by " << growth
+    std::cout << kFrames << " frames after as many on " << device().info().name << ", held memory grew by " << growth
               << " bytes\n";
     RecordProperty("growth_bytes", std::to_string(growth));
 }
