@@ -16,7 +16,7 @@
 #include "tests/oracle/fit_stages.h"
 #include "tests/unit/math/random_seed.h"
 
-/// Random fits by the hundred thousand, judged point by point in long double. 20 000 of each kind in a short run, 300 000
+/// Random fits by the hundred thousand, judged point by point in long double. 20 000 of each kind in a short run, 100 000
 /// with GNOMON_LONG, any number with GNOMON_FITS.
 namespace gnomon::shadow {
 namespace {
@@ -31,7 +31,7 @@ std::uint64_t fit_count() {
     constexpr std::uint64_t kShort = 20000;
 #endif
     if (const char* count = std::getenv("GNOMON_FITS")) return std::strtoull(count, nullptr, 10);
-    return is_long_run() ? 300000 : kShort;
+    return is_long_run() ? 100000 : kShort;
 }
 
 /// Points this share inside of what is seen and lit: closer, rounding of the camera itself decides.

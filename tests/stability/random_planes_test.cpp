@@ -11,7 +11,7 @@
 #include "tests/unit/math/random_seed.h"
 
 /// A plane never shadows itself, and an offset a tenth smaller would not do: for every kind of light, filter and
-/// format. 20 000 planes of each in a short run, 100 000 with GNOMON_LONG, any number with GNOMON_PLANES (a million is
+/// format. 20 000 planes of each in a short run, 50 000 with GNOMON_LONG, any number with GNOMON_PLANES (a million is
 /// recorded in docs/contributors/reliability.md).
 namespace gnomon {
 namespace {
@@ -21,7 +21,7 @@ std::uint64_t plane_count() {
     // Nine tenths of a disk's offset, which is looser than need be, fail for one plane of a thousand.
     constexpr std::uint64_t kShort = 10000, kLong = kShort;
 #else
-    constexpr std::uint64_t kShort = 20000, kLong = 100000;
+    constexpr std::uint64_t kShort = 20000, kLong = 50000;
 #endif
     if (const char* count = std::getenv("GNOMON_PLANES")) return std::strtoull(count, nullptr, 10);
     return is_long_run() ? kLong : kShort;
