@@ -326,6 +326,21 @@ TEST_P(DeviceFailure, ALargerMapThatCannotBeHadKeepsTheOneThereIs) {
     EXPECT_EQ(report().counts.texels % (4 * kSize_px * kSize_px), 0u);
 }
 
+TEST_P(DeviceFailure, WithoutRoomForSharesAllPixelsAreLookedUpByArea) {
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) {
+        s.filter = ShadowFilter::triangles;
+        s.antialias = true;
+    });
+    EXPECT_CALL(device, create_texture).Times(::testing::AnyNumber());
+    EXPECT_CALL(device, create_texture(Field(&gl::TextureDesc::label, HasSubstr("lit shares")), _))
+        .WillRepeatedly(refusal<gl::TextureHandle>(gl::Failure::out_of_memory));
+    step();
+    expect_shadowed();
+    ::testing::Mock::VerifyAndClearExpectations(&device);
+    step();
+    EXPECT_GT(light_programs().size(), 1u) << "middles, marks and areas";
+}
+
 TEST_P(DeviceFailure, APictureThatCannotBeAllocatedIsNoPictureAndReturns) {
     EXPECT_CALL(device, create_texture).Times(::testing::AnyNumber());
     EXPECT_CALL(device, create_texture(Field(&gl::TextureDesc::label, "light sum"), _))
