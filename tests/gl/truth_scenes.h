@@ -51,7 +51,7 @@ protected:
         return std::move(stage).value();
     }
 
-    /// Without timings, and without edges unless `options` has them. Fails on any complaint of the driver.
+    /// Measures without timings, and without edges unless `options` has them. Fails on any complaint of the driver.
     static bench::Accuracy measure(bench::Stage& stage, const bench::AccuracyOptions& options = {.timed_frames = 0}) {
         auto accuracy = bench::measure_accuracy(stage, options);
         if (!accuracy) {

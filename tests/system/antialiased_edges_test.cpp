@@ -90,7 +90,7 @@ TEST_F(AntialiasedEdges, OwnNothingWhereNoLightAsks) {
     }
 }
 
-/// Another light's pass reads what this one's wrote, so each light's middles start from an empty picture.
+/// Checks that each light starts from an empty picture: the one before left its own shares there.
 TEST_F(AntialiasedEdges, OfSeveralLightsShareTheTextures) {
     antialias(spot, true);
     step();

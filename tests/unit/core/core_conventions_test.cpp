@@ -151,7 +151,7 @@ TEST_F(CoreConventions, KeepTheirPrecisionFarFromTheOrigin) {
         }
         // What the anchor is for: without it a float knows no place out there.
         const View& view = fits.views().front();
-        double off = 0.0;  // of the farthest of some: one alone may lie on a step of floats
+        double off = 0.0;  // largest of some: one alone may lie on a step of floats
         for (int i = 0; i < 20; ++i) {
             const glm::dvec3 p = before(view, random);
             const glm::vec4 q = glm::mat4(view.map_from_world) * glm::vec4(glm::vec3(p), 1.0f);
