@@ -115,7 +115,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     const auto other = other_surfaces(stage, tracer, hits);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         const LightItem& light = snapshot.lights[indices[k]];
-        accuracy.lights[k].truth = tracer.trace_light(hits, light, options.with_ambiguous);
+        accuracy.lights[k].truth = tracer.trace_light(hits, light, true);
         if (other) accuracy.lights[k].other_surface = leave_out(*other, accuracy.lights[k].truth);
         if (oracle::source_size(light) > 0.0 && !is_left_out(accuracy.lights[k].report))
             judge_source(tracer, hits, light, accuracy.lights[k]);

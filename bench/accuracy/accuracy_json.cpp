@@ -62,7 +62,8 @@ void add_errors(const LightAccuracy& light, Json& json) {
                     {"unmeasured", m.edge.unmeasured}, {"mean_signed_px", m.edge.mean_signed_px},
                     {"mean_px", m.edge.mean_px},       {"p95_px", m.edge.p95_px},
                     {"p99_px", m.edge.p99_px},         {"max_px", m.edge.max_px}};
-    const EdgeAccuracy edges = light.edges.value_or(EdgeAccuracy{});
+    const EdgeAccuracy none;
+    const EdgeAccuracy& edges = light.edges ? *light.edges : none;
     json["edge_exceptions"] = {{"sub_texel_caster", edges.exceptions.sub_texel_caster},
                                {"truth_ambiguous", edges.exceptions.truth_ambiguous},
                                {"unexplained", edges.exceptions.unexplained}};

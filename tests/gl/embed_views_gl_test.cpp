@@ -8,6 +8,14 @@ namespace {
 
 class EmbedScene : public EmbedTest {
 protected:
+    /// Returns a view from the other side, with the depths that the other engine drew.
+    View drawn_from_behind() {
+        View from_behind = view;
+        from_behind.world_from_view = glm::inverse(glm::lookAt(glm::dvec3(-3.0, 2.0, -2.0), glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
+        from_behind.normal_texture = others.front()->normals;
+        draw_depths(from_behind, *others.front());
+        return from_behind;
+    }
     void SetUp() override {
         EmbedTest::SetUp();
         make_engine(Depths::usual_float);
@@ -181,10 +189,7 @@ TEST_F(EmbedScene, ViewsAtOnceShowWhatEachShowsAlone) {
     others.push_back(std::make_unique<Engine>(Depths::reversed));
     add_lit_room();
     draw_depths(view, *engine);
-    View from_behind = view;
-    from_behind.world_from_view = glm::inverse(glm::lookAt(glm::dvec3(-3.0, 2.0, -2.0), glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
-    from_behind.normal_texture = others.front()->normals;
-    draw_depths(from_behind, *others.front());
+    const View from_behind = drawn_from_behind();
     const View both[] = {view, from_behind};
     const auto masks = shadows->render(both);
     ASSERT_EQ(masks.size(), 2u);
@@ -198,10 +203,7 @@ TEST_F(EmbedScene, FromThe32ndOnViewsShowWhatEachShowsAlone) {
     others.push_back(std::make_unique<Engine>(Depths::usual_float));
     add_lit_room();
     draw_depths(view, *engine);
-    View from_behind = view;
-    from_behind.world_from_view = glm::inverse(glm::lookAt(glm::dvec3(-3.0, 2.0, -2.0), glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
-    from_behind.normal_texture = others.front()->normals;
-    draw_depths(from_behind, *others.front());
+    const View from_behind = drawn_from_behind();
     std::vector<View> many(34, view);
     many[31] = many[33] = from_behind;
     std::vector<std::vector<std::uint8_t>> seen;

@@ -41,6 +41,7 @@ class Summary(unittest.TestCase):
     def test_counts_are_summed_over_files(self):
         status, lines = self.run_on(PASSED + PASSED, PASSED + SKIPPED)
         self.assertEqual((status, lines[-1]), (0, "3 passed, 0 failed, 1 skipped"))
+        self.assertFalse(any(line.startswith("failed") for line in lines))
 
     def test_a_skip_is_listed_with_its_reason(self):
         self.assertIn("skipped A.Skips: no scene: Sponza is absent", self.run_on(PASSED + SKIPPED)[1])
@@ -49,6 +50,7 @@ class Summary(unittest.TestCase):
         status, lines = self.run_on(PASSED + FAILED)
         self.assertEqual((status, lines[-1]), (1, "1 passed, 1 failed, 0 skipped"))
         self.assertIn("    expected 1", lines)
+        self.assertEqual(lines[-2], "failed: A.Fails")
 
     def test_a_test_that_could_not_run_is_a_failure_and_no_skip(self):
         status, lines = self.run_on(PASSED + NOT_RUN)
