@@ -89,7 +89,7 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
 bool FrameSystem::record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool held) {
     using Draws = picture::PictureSamples::Draws;
     const bool unchanged = changes_->unchanged(snapshot_, shadows, settings) && has_picture_;
-    const Draws draws = samples_->begin(unchanged, settings.still_samples, settings.viewport_px);
+    const Draws draws = samples_->begin(unchanged, settings.still_samples, settings.viewport_px, settings.transparent);
     const glm::dvec2 jitter_px = samples_->place_px();
     const bool is_middle = jitter_px == glm::dvec2(0.0);  // measurements of other samples would move fits
     const bool wants_depths = !held && shadows_->wants_sampled_depths(snapshot_);
@@ -103,7 +103,7 @@ bool FrameSystem::record_picture(const shadow::ShadowFrame& shadows, const Frame
         has_picture_ = !shadows.inputs.empty() &&
                        lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                          {settings.exposure_ev, settings.programs_per_frame, measure_exposure,
-                                          sample_depths, shadows_->maps().room(), jitter_px},
+                                          sample_depths, shadows_->maps().room(), jitter_px, settings.transparent},
                                          commands_, outcome_);
         if (!(outcome_.failures == shown_failures_)) samples_->restart();
         shown_failures_ = outcome_.failures;

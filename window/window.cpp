@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 #include "engine/image/encode_image.h"
@@ -62,7 +64,31 @@ GLuint Window::State::framebuffer_of(GLuint picture) {
     return shown;
 }
 
-Result<bool> write_screenshot(unsigned colour_texture, const std::string& file) {
+namespace {
+
+double as_light(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+double encoded_of(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+}
+
+/// Divides the light of premultiplied sRGB colours by their alpha; without alpha they become black.
+void divide_by_alpha(std::span<std::uint8_t> rgba) {
+    constexpr double kMost = 255.0;
+    for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
+        const double alpha = rgba[i + 3] / kMost;
+        if (rgba[i + 3] == 255) continue;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const double light = alpha > 0.0 ? std::min(as_light(rgba[c] / kMost) / alpha, 1.0) : 0.0;
+            rgba[c] = static_cast<std::uint8_t>(std::lround(kMost * encoded_of(light)));
+        }
+    }
+}
+
+}  // namespace
+
+Result<bool> write_screenshot(unsigned colour_texture, const std::string& file, PictureAlpha alpha) {
     GLint width = 0, height = 0;
     glGetTextureLevelParameteriv(colour_texture, 0, GL_TEXTURE_WIDTH, &width);
     glGetTextureLevelParameteriv(colour_texture, 0, GL_TEXTURE_HEIGHT, &height);
@@ -71,7 +97,8 @@ Result<bool> write_screenshot(unsigned colour_texture, const std::string& file) 
     glGetTextureImage(colour_texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
     for (std::size_t y = 0; y < rows; ++y)
         std::copy_n(rgba.data() + y * row, row, flipped.data() + (rows - 1 - y) * row);
-    for (std::size_t i = 3; i < flipped.size(); i += 4) flipped[i] = 255;  // a picture on a screen is opaque
+    if (alpha == PictureAlpha::premultiplied) divide_by_alpha(flipped);
+    for (std::size_t i = 3; alpha == PictureAlpha::opaque && i < flipped.size(); i += 4) flipped[i] = 255;
     const std::vector<std::uint8_t> png =
         encode_png(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), flipped);
     std::FILE* to = std::fopen(file.c_str(), "wb");

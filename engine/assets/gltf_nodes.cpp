@@ -181,6 +181,7 @@ private:
         node.casts_shadow = extras.boolean("castShadow", true);
         node.receives_shadow = extras.boolean("receiveShadow", true);
         node.visible = extras.boolean("visible", true);
+        node.shadow_catcher = extras.boolean("shadowCatcher", false);
         node.motion = extras.motion();
         node.light = light_of(raw, extras);
         became_[at] = static_cast<std::int32_t>(scene_.nodes.size());
@@ -203,6 +204,7 @@ private:
         below.casts_shadow = node.casts_shadow;
         below.receives_shadow = node.receives_shadow;
         below.visible = node.visible;
+        below.shadow_catcher = node.shadow_catcher;
         return below;
     }
 

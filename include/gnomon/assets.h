@@ -256,6 +256,7 @@ struct Node {
     bool casts_shadow = true;          // extras.castShadow
     bool receives_shadow = true;       // extras.receiveShadow
     bool visible = true;               // extras.visible
+    bool shadow_catcher = false;       // extras.shadowCatcher
     /// Animation of a caster or light by the sample game (extras.motion); kind "": none.
     /// - "spin": rotates about `axis` once per period_s.
     /// - "swing": rotates to and fro by amplitude (rad) about `axis`.

@@ -76,6 +76,10 @@ struct MeshRef {
     bool visible = true;                            // false: not drawn for any camera; still casts if a ShadowCaster
     bool receives_shadow = true;                    // false: always fully lit by every light
     ShadowLayers shadow_layers = kAllShadowLayers;  // always fully lit by lights of other layers
+    /// Shadow catcher: shows nothing of its own but the shadows on it, as black with the share of its light that
+    /// casters take as alpha. For real surfaces in a photograph behind the picture. Its material counts by its mask and
+    /// its faces alone. Needs `visible`. Default: false.
+    bool shadow_catcher = false;
 };
 
 /// Makes an entity with a MeshRef cast shadows.

@@ -261,6 +261,10 @@ struct FrameSettings {
     std::uint32_t still_samples = 1;
     /// Smooth stair-steps of edges by what the picture itself shows, while it has fewer than 8 samples per pixel.
     bool smooth_edges = false;
+    /// Draw nothing behind the surfaces, for a picture to be laid over another one (docs/how-to/compositing.md). Its
+    /// alpha is 1 on surfaces and 0 beside them; blended surfaces and shadow catchers lie between. Colours are
+    /// multiplied by alpha, as light. Default: an opaque sky.
+    bool transparent = false;
     /// Measure gpu_us. Software devices finish their work around each timer, which slows frames down. A budget in
     /// milliseconds measures by itself, except there.
     bool time_gpu = false;

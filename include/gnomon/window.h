@@ -95,9 +95,14 @@ struct WindowOptions {
 /// its message is the usage.
 Result<WindowOptions> window_options(int argc, const char* const* argv, std::string_view title);
 
-/// Writes a GL_TEXTURE_2D with channels of 8 bits as an opaque PNG. Row 0 is the lowest, as OpenGL draws. Colours are
-/// written as they are stored. Error: "output.write".
-Result<bool> write_screenshot(unsigned colour_texture, const std::string& file);
+/// Alpha of a picture. opaque: it does not count. premultiplied: coverage, by which colours are multiplied as light, as
+/// FrameSettings::transparent has it.
+enum class PictureAlpha : std::uint8_t { opaque, premultiplied };
+
+/// Writes a GL_TEXTURE_2D with channels of 8 bits as a PNG. Row 0 is the lowest, as OpenGL draws. Opaque colours are
+/// written as they are stored; others divided by alpha, as PNG has them. Error: "output.write".
+Result<bool> write_screenshot(unsigned colour_texture, const std::string& file,
+                              PictureAlpha alpha = PictureAlpha::opaque);
 
 /// Window, or picture without one. The context is current on the creating thread until it is destroyed.
 class Window {

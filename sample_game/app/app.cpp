@@ -82,6 +82,7 @@ FrameSettings frame_settings(const CommandLine& line) {
             .shadow_budget = line.shadow_budget,
             .still_samples = line.debug.view ? 1 : still_samples(line),
             .smooth_edges = !line.debug.view && smooths_edges(line),
+            .transparent = line.transparent,
             .time_gpu = line.stats.has_value()};
 }
 
@@ -107,10 +108,11 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 
 unsigned trace_threads() { return std::max(std::thread::hardware_concurrency(), 2u) - 1u; }
 
-std::optional<Error> write_picture(const std::filesystem::path& file, const Frame& frame) {
+std::optional<Error> write_picture(const std::filesystem::path& file, const Frame& frame, bool transparent) {
     if (frame.picture_texture() == 0)
         return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
-    const Result<bool> written = write_screenshot(frame.picture_texture(), file.string());
+    const Result<bool> written = write_screenshot(frame.picture_texture(), file.string(),
+                                                  transparent ? PictureAlpha::premultiplied : PictureAlpha::opaque);
     return written ? std::nullopt : std::optional(written.error());
 }
 

@@ -1,7 +1,7 @@
 #pragma once
+#include <spdlog/logger.h>
 #include <memory>
 #include <optional>
-#include <spdlog/logger.h>
 #include <string>
 #include <vector>
 
@@ -41,8 +41,8 @@ unsigned trace_threads();
 std::optional<Error> write_outputs(const CommandLine& line, const GameWorld& world, Frame& frame, glm::uvec2 size_px,
                                    const StatsFile& stats);
 
-/// Writes the picture as it is to `file`.
-std::optional<Error> write_picture(const std::filesystem::path& file, const Frame& frame);
+/// Writes the picture as it is to `file`. `transparent`: with its alpha.
+std::optional<Error> write_picture(const std::filesystem::path& file, const Frame& frame, bool transparent);
 
 /// Runs all frames without a window, as run_window() does in one. Returns nothing on success.
 std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);

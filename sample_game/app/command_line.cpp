@@ -25,7 +25,7 @@ struct Typed {
     std::string scene, camera, fit_camera, animation, size, frames, time, exposure, samples, smooth, shadow_bytes,
         shadow_ms, shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;
     std::vector<std::string> settings;
-    bool headless = false, demo = false, list = false;
+    bool headless = false, demo = false, list = false, transparent = false;
 };
 
 Error wrong(const std::string& message) { return {.message = on_one_line(message), .rule = "command_line"}; }
@@ -55,6 +55,8 @@ void declare(CLI::App& app, Typed& typed) {
                    "N: rays that pixels of exact lights may ask in a frame (default: any)");
     app.add_option("--stats", typed.stats, "F.json: per frame and light times, counts, report");
     app.add_option("--screenshot", typed.screenshot, "F.png: the last frame");
+    app.add_flag("--transparent", typed.transparent,
+                 "nothing behind the surfaces: --screenshot has alpha, to lay it over another picture");
     app.add_option("--visibility", typed.visibility,
                    "DIR: DIR/<light>.pfm, the visible fraction of each shadowed light");
     app.add_option(
@@ -158,6 +160,7 @@ Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
     CommandLine line;
     line.headless = typed.headless;
     line.demo = typed.demo;
+    line.transparent = typed.transparent;
     line.settings = typed.settings;
     if (typed.list) line.print = list_settings() + list_presets() + list_debug_views();
     if (app.count("--size") > 0)

@@ -26,6 +26,7 @@ struct CommandLine {
     std::optional<float> exposure_ev;      // empty: automatic
     shadow::ShadowBudget shadow_budget;    // what shadows may take
     std::optional<std::uint32_t> samples;  // per pixel, > 0; empty: see still_samples()
+    bool transparent = false;              // nothing is drawn behind all surfaces
     std::optional<bool> smooth;            // edges of moving pictures; empty: see smooths_edges()
     std::optional<std::filesystem::path> stats, screenshot, visibility;
     std::optional<std::filesystem::path> truth;  // the last frame beside its truth: picture with errors over it

@@ -37,7 +37,7 @@ bool finish_samples(GameWorld& world, Frame& frame, const FrameSettings& setting
 std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
                                       const FrameSettings& settings, Gui* gui, StatsFile& stats) {
     if (line.screenshot)
-        if (auto error = write_picture(*line.screenshot, frame)) return error;
+        if (auto error = write_picture(*line.screenshot, frame, line.transparent)) return error;
     FrameSettings middle = settings;  // what is judged and written per pixel is that of its middle
     middle.still_samples = 1;
     if (settings.still_samples > 1 && (line.truth || line.visibility)) frame.run(world.registry, middle);
@@ -47,7 +47,7 @@ std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world,
     if (!line.truth) return std::nullopt;
     frame.run(world.registry, middle);  // again, for a picture that nothing was drawn over
     gui->draw(world, frame, settings.viewport_px, nullptr, kStep_s);
-    return write_picture(*line.truth, frame);
+    return write_picture(*line.truth, frame, line.transparent);
 }
 
 }  // namespace gnomon::game

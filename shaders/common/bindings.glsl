@@ -10,6 +10,7 @@ const int kExposureBlock = 4;
 const int kShownScaleBlock = 5;
 const int kKeptBlock = 6;
 const int kImportBlock = 7;
+const int kSampleBlock = 0;         // passes over the finished picture
 const int kDepthViewBlock = 0;    // passes that draw maps: they and the next two passes have no camera
 const int kPrefilterBlock = 0;
 const int kPyramidBlock = 0;
@@ -63,6 +64,7 @@ const int kMeteredPictureUnit = 1;
 const int kPictureUnit = 0;
 const int kLuminanceUnit = 1;
 const int kPictureDepthUnit = 2;
+const int kCaughtLightUnit = 0;
 const int kFinishedPictureUnit = 0;   // passes over the picture as a display shows it
 
 // Texture units of another renderer's picture.

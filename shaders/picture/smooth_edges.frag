@@ -11,10 +11,11 @@ const float kRelativeContrast = 1.0 / 8.0;   // share of the brightest pixel aro
 const float kEndShare = 0.25;                // share of the step's contrast by which its end differs from the step
 const int kFarthest_px = 16;                 // a step is followed so far to either side
 
-vec3 colour_at(ivec2 pixel) { return texelFetch(picture, clamp(pixel, ivec2(0), textureSize(picture, 0) - 1), 0).rgb; }
+vec4 colour_at(ivec2 pixel) { return texelFetch(picture, clamp(pixel, ivec2(0), textureSize(picture, 0) - 1), 0); }
 
-// Returns brightness as eyes see it. The root stands for the display's curve.
-float brightness(vec3 colour) { return sqrt(dot(colour, vec3(0.2126, 0.7152, 0.0722))); }   // Rec. 709
+// Returns brightness as eyes see it, over white where the picture is transparent. The root stands for the display's
+// curve.
+float brightness(vec4 colour) { return sqrt(dot(colour.rgb + (1.0 - colour.a), vec3(0.2126, 0.7152, 0.0722))); }   // Rec. 709
 float brightness_at(ivec2 pixel) { return brightness(colour_at(pixel)); }
 
 // One end of a step.
@@ -48,12 +49,12 @@ float share_beyond(ivec2 pixel, ivec2 side, float own, float beyond) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 colours[9];   // from the lower left on, row by row
+    vec4 colours[9];   // from the lower left on, row by row
     float b[9];
     for (int i = 0; i < 9; ++i) colours[i] = colour_at(pixel + ivec2(i % 3 - 1, i / 3 - 1));
     for (int i = 0; i < 9; ++i) b[i] = brightness(colours[i]);
     float left = b[3], own = b[4], right = b[5], down = b[1], up = b[7];
-    colour_out = vec4(colours[4], 1.0);
+    colour_out = colours[4];
     float most = max(own, max(max(up, down), max(left, right)));
     float contrast = most - min(own, min(min(up, down), min(left, right)));
     if (contrast < max(kLeastContrast, kRelativeContrast * most)) return;
@@ -66,10 +67,10 @@ void main() {
     bool is_behind = abs(behind - own) >= abs(before - own);
     ivec2 side = is_behind ? across : -across;
     float share = share_beyond(pixel, side, own, is_behind ? behind : before);
-    vec3 smoothed = mix(colours[4], colour_at(pixel + side), share);
+    vec4 smoothed = mix(colours[4], colour_at(pixel + side), share);
 
-    vec3 corners = colours[0] + colours[2] + colours[6] + colours[8], beside = colours[1] + colours[3] + colours[5] + colours[7];
+    vec4 corners = colours[0] + colours[2] + colours[6] + colours[8], beside = colours[1] + colours[3] + colours[5] + colours[7];
     float around = (2.0 * (up + down + left + right) + b[0] + b[2] + b[6] + b[8]) / 12.0;
     float apart = min(abs(around - own) / contrast, 1.0);
-    colour_out.rgb = mix(smoothed, (4.0 * colours[4] + 2.0 * beside + corners) / 16.0, apart);
+    colour_out = mix(smoothed, (4.0 * colours[4] + 2.0 * beside + corners) / 16.0, apart);
 }

@@ -59,6 +59,7 @@ IndexSet put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceIt
     const InstanceItem was = item;
     const ShadowCaster* caster = registry.get<ShadowCaster>(item.entity);
     item.visible = ref.visible;
+    item.shadow_catcher = ref.shadow_catcher;
     item.receives = ref.receives_shadow;
     item.receive_layers = ref.shadow_layers;
     item.casts = caster && caster->enabled;
@@ -66,7 +67,8 @@ IndexSet put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceIt
     if (was.receives != item.receives || was.receive_layers != item.receive_layers || was.casts != item.casts ||
         was.cast_layers != item.cast_layers)
         return IndexSet::recorded;
-    return was.visible != item.visible ? IndexSet::changed : IndexSet::same;
+    const bool seen_alike = was.visible == item.visible && was.shadow_catcher == item.shadow_catcher;
+    return seen_alike ? IndexSet::same : IndexSet::changed;
 }
 
 template <class Item>

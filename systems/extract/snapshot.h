@@ -102,6 +102,7 @@ struct InstanceItem {
     ShadowLayers cast_layers = kAllShadowLayers;
     ShadowLayers receive_layers = kAllShadowLayers;
     bool visible = true;
+    bool shadow_catcher = false;  // what is seen of it are the shadows on it
     Winding winding = {};
     DrawableMotion drawable = {};
     bool by_depth = false;           // no triangles of it are known: a drawable, or a mesh in buffers of the engine's
@@ -116,6 +117,9 @@ inline bool casts_under(const LightItem& light, const InstanceItem& item) {
 inline bool receives_under(const LightItem& light, const InstanceItem& item) {
     return item.receives && (light.shadow.layers & item.receive_layers) != 0;
 }
+
+/// Returns true if cameras see the instance's own surface.
+inline bool shows_surface(const InstanceItem& item) { return item.visible && !item.shadow_catcher; }
 
 struct SceneSnapshot;
 /// Returns the mesh's pose; null: at rest.

@@ -15,6 +15,8 @@ const char* output_name(ShaderPass output) {
             return "visibility";
         case ShaderPass::blended:
             return "blended light";
+        case ShaderPass::catcher:
+            return "caught light";
         case ShaderPass::lookups:
             return "lookups";
         case ShaderPass::verdicts:
@@ -64,26 +66,32 @@ std::string_view fragment_file(ShaderPass output) {
     return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";
 }
 
+/// Returns the fragment shader, under shaders/, that draws a light on meshes.
+std::string_view forward_file(ShaderPass output) {
+    return output == ShaderPass::catcher ? "lighting/catchers/caught_light.frag" : "lighting/lights/blended_light.frag";
+}
+
 }  // namespace
 
 LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
     for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_,
-                           unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_})
+                           unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_,
+                           tonemap_transparent_, catcher_base_, catcher_shares_})
         device_.destroy(e.program);
 }
 
 void LightPrograms::set_coloured(bool coloured) {
     if (coloured == coloured_) return;
     coloured_ = coloured;
-    for (Entry* entry :
-         {&surface_, &surface_places_, &blended_base_, &unlit_surface_, &unlit_surface_places_, &unlit_blended_}) {
+    for (Entry* entry : {&surface_, &surface_places_, &blended_base_, &unlit_surface_, &unlit_surface_places_,
+                         &unlit_blended_, &catcher_base_}) {
         device_.destroy(entry->program);
         *entry = {};
     }
     std::erase_if(rows_, [&](const RowEntry& row) {
-        if (row.output == ShaderPass::blended) device_.destroy(row.entry.program);
-        return row.output == ShaderPass::blended;
+        if (is_forward(row.output)) device_.destroy(row.entry.program);
+        return is_forward(row.output);
     });
 }
 
@@ -133,7 +141,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     std::vector<std::string> defines = shadow::program_defines(row);
     const bool found_before = row.filter_file.empty() && row.sheets;
     defines.push_back("VISIBLE_SHARE \"" + std::string(visible_share_file(output, found_before)) + "\"");
-    if (output == ShaderPass::blended && coloured_) defines.emplace_back("COLOURED 1");
+    if (is_forward(output) && coloured_) defines.emplace_back("COLOURED 1");
+    if (output == ShaderPass::catcher) defines.emplace_back("INVARIANT_POSITION 1");
     if (output == ShaderPass::crossed_areas) defines.emplace_back("AREAS_ALONE 1");
     if (is_middles(output)) defines.emplace_back("MIDDLES 1");
     if (output == ShaderPass::decided || output == ShaderPass::decided_visibility ||
@@ -145,8 +154,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
                               (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") +
                               (found_before ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
-    if (output == ShaderPass::blended)
-        make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended_light.frag", defines, &row);
+    if (is_forward(output))
+        make(entry, label, "lighting/gbuffer/gbuffer.vert", forward_file(output), defines, &row);
     else if (output == ShaderPass::verdicts)
         make(entry, label, "common/fullscreen.vert", "lighting/trace/classify_pixels.frag", defines, &row);
     else if (output == ShaderPass::rays)
@@ -208,11 +217,25 @@ gl::ProgramHandle LightPrograms::mark_edges() {
         make(mark_edges_, "marked edges", "common/fullscreen.vert", "lighting/edges/mark_edges.frag", {}, nullptr);
     return mark_edges_.program;
 }
+gl::ProgramHandle LightPrograms::catcher_base() {
+    if (is_due(catcher_base_))
+        make_of_meshes(catcher_base_, "catcher base", "lighting/catchers/catcher_base.frag", {"INVARIANT_POSITION 1"});
+    return catcher_base_.program;
+}
+gl::ProgramHandle LightPrograms::catcher_shares() {
+    if (is_due(catcher_shares_))
+        make(catcher_shares_, "catcher shares", "common/fullscreen.vert", "lighting/catchers/catcher_shares.frag", {},
+             nullptr);
+    return catcher_shares_.program;
+}
 gl::ProgramHandle LightPrograms::luminance() {
     return needed(luminance_, "luminance", "common/fullscreen.vert", "lighting/post/luminance.frag");
 }
-gl::ProgramHandle LightPrograms::tonemap() {
-    return needed(tonemap_, "tonemap", "common/fullscreen.vert", "lighting/post/tonemap.frag");
+gl::ProgramHandle LightPrograms::tonemap(bool transparent) {
+    const char* const file = "lighting/post/tonemap.frag";
+    if (!transparent) return needed(tonemap_, "tonemap", "common/fullscreen.vert", file);
+    const std::string define = "TRANSPARENT 1";
+    return needed(tonemap_transparent_, "transparent tonemap", "common/fullscreen.vert", file, {&define, 1});
 }
 
 }  // namespace gnomon::lighting

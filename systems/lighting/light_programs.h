@@ -12,17 +12,21 @@
 namespace gnomon::lighting {
 
 /// Output of a row's program.
+/// - blended: what a light adds to blended surfaces, drawn forward
+/// - catcher: what falls on shadow catchers, and what casters take of it, drawn forward
 /// - lookups: the lookup, as a debug view shows it
 /// - verdicts: what maps of sheets decide
 /// - rays: what rays decide of the other pixels (RayList)
 /// - kept, kept_visibility: picture and visibility from cached visibility (KeptVisibility)
 /// - decided, decided_visibility: picture and visibility without pixels that take the row's filter long
-/// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of the
+/// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of
+/// the
 ///   others, and of the areas that an edge crosses
 enum class ShaderPass : std::uint8_t {
     picture,
     visibility,
     blended,
+    catcher,
     lookups,
     verdicts,
     rays,
@@ -34,6 +38,9 @@ enum class ShaderPass : std::uint8_t {
     undecided_middles,
     crossed_areas
 };
+
+/// Returns whether a row's program draws meshes, in place of passes over the picture.
+inline bool is_forward(ShaderPass output) { return output == ShaderPass::blended || output == ShaderPass::catcher; }
 
 /// Returns the row for a light without lookup: one per kind.
 inline shadow::ShaderKey kept_row(const shadow::ShaderKey& row) { return {row.kind_define, {}, {}}; }
@@ -77,8 +84,13 @@ public:
     gl::ProgramHandle import_surfaces(bool multisampled);
     /// Returns the program that marks pixels for EdgePass; {0} if it cannot be made.
     gl::ProgramHandle mark_edges();
+    /// Returns the programs for shadow catchers: ambient light on the nearest ones, and their shares over the picture;
+    /// {0} if they cannot be made.
+    gl::ProgramHandle catcher_base();
+    gl::ProgramHandle catcher_shares();
     gl::ProgramHandle luminance();
-    gl::ProgramHandle tonemap();
+    /// Returns the program that writes the picture. `transparent`: without what is behind all surfaces.
+    gl::ProgramHandle tonemap(bool transparent);
     gl::Failure failure() const { return failure_; }  // last program made
 
 private:
@@ -107,6 +119,7 @@ private:
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
+    Entry tonemap_transparent_, catcher_base_, catcher_shares_;
     Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_;
     bool some_unlit_ = false;
     bool coloured_ = false;

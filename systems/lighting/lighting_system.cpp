@@ -37,6 +37,7 @@ LightingSystem::LightingSystem(gl::Device& device)
       targets_(device),
       ray_list_(device),
       edges_(device),
+      caught_(device),
       depths_(device),
       exposure_(device),
       kept_(device),
@@ -53,7 +54,8 @@ gl::Rect LightingSystem::viewport() const {
 }
 
 /// Makes missing objects that every picture needs. Returns the reason of a failure.
-gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
+gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
+                                    bool transparent) {
     if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return targets_.failure();
     const auto ensure = [&](gl::SamplerHandle& sampler, const gl::SamplerDesc& desc) {
         if (sampler) return gl::Failure::none;
@@ -82,7 +84,9 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     const auto leaves = [](const shadow::LightingLight& light) { return light.row.triangles; };
     targets_.provide_undecided(std::any_of(inputs.lights.begin(), inputs.lights.end(), leaves));
     has_places_ = targets_.provide_places(wanted) && wanted && programs_.surface(true);
-    if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
+    if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap(transparent))
+        return programs_.failure();
+    caught_.provide(!catchers_.empty(), targets_.size_px());
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
                       uniforms_.reserve(kept_offset_ + std::uint64_t{kept_stride_} * inputs.lights.size());
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
@@ -117,11 +121,16 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     draw_items_.clear();
     draws_.clear();
     blended_.clear();
+    catchers_.clear();
     farthest_m_.resize(scene.instances.size());
     const math::Frustum frustum = jitters ? jittered_frustum(consumer) : consumer_frustum(consumer);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
         if (!item.visible || item.gpu_slot >= gpu.capacity() || !math::may_overlap(frustum, item.bounds_ws)) continue;
+        if (item.shadow_catcher) {
+            add_catcher(item, gpu);
+            continue;
+        }
         visible_.push_back(i);
         farthest_m_[i] = farthest_m(item.bounds_ws, consumer.position_ws_m);
     }
@@ -236,56 +245,7 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
     list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, targets_.material, point_sampler_});
 }
 
-/// Looks up each light's program for blended surfaces. Notes the lights that fall back.
-void LightingSystem::plan_blended(const shadow::LightingInputs& inputs, shadow::LightingOutcome& outcome) {
-    for (const shadow::LightingLight& light : inputs.lights) {
-        LightProgram& used = blended_programs_.emplace_back();
-        if (light.screen.width <= 0) continue;
-        used = light_program(light, ShaderPass::blended);
-        if (used.lacks != Reason::none)
-            outcome.failures.push_back({light.light, used.lacks, used.unshadowed, true, light.plain.accuracy});
-    }
-}
-
-void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
-                                    shadow::LightingOutcome& outcome) {
-    if (blended_.empty() || !programs_.blended_base()) return;
-    blended_programs_.clear();
-    list.add(gl::BeginGroup{"blended"});
-    list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
-    for (const SurfaceDraw& draw : blended_) {
-        const gl::ProgramHandle unlit =
-            gpu.material(draw.material).unlit ? programs_.unlit_blended() : gl::ProgramHandle{};
-        gl::PipelineState state{unlit ? unlit : programs_.blended_base(),
-                                draw.two_sided ? gl::CullMode::none : gl::CullMode::back,
-                                draw.mirrored,
-                                gl::DepthTest::greater,
-                                false,
-                                false,
-                                gl::Blend::alpha};
-        list.add(gl::SetPipeline{state});
-        bind_scene(gpu, list);
-        bind_material(gpu, draw.material, list);
-        const gl::DrawMeshes meshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item,
-                                    draw.item_count};
-        list.add(meshes);
-        if (!unlit && blended_programs_.empty()) plan_blended(inputs, outcome);
-        for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-            if (unlit || inputs.lights[i].screen.width <= 0) continue;
-            const LightProgram& used = blended_programs_[i];
-            state.program = used.program;
-            if (!state.program) continue;
-            state.blend = gl::Blend::add;
-            list.add(gl::SetPipeline{state});
-            bind_light(used, i, gpu, list);
-            list.add(meshes);
-        }
-    }
-    list.add(gl::EndPass{});
-    list.add(gl::EndGroup{});
-}
-
-void LightingSystem::record_finish(gl::CommandList& list) {
+void LightingSystem::record_finish(bool transparent, gl::CommandList& list) {
     const auto side = static_cast<std::int32_t>(kLuminanceSide_px);
     list.add(gl::BeginGroup{"exposure"});
     list.add(gl::BeginTimer{kFinishTimer});
@@ -300,7 +260,7 @@ void LightingSystem::record_finish(gl::CommandList& list) {
     list.add(gl::GenerateMips{targets_.luminance});
     list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});
     list.add(gl::SetPipeline{
-        {programs_.tonemap(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+        {programs_.tonemap(transparent), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     list.add(gl::BindTexture{bindings::kPictureUnit, targets_.light_sum, point_sampler_});
     list.add(gl::BindTexture{bindings::kLuminanceUnit, targets_.luminance, mip_sampler_});
     list.add(gl::BindTexture{bindings::kPictureDepthUnit, targets_.depth, point_sampler_});
@@ -322,11 +282,11 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     programs_.next_frame(settings.most_rows);
     programs_.set_some_unlit(gpu.any_unlit());
     programs_.set_coloured(static_cast<bool>(gpu.colours()));
-    outcome.failure = prepare(inputs, scene);
+    outcome.failure = prepare(inputs, scene, settings.transparent);
     if (outcome.failure != gl::Failure::none) {
         // Freed memory returns only after the device has finished its work; then there may be room.
         device_.finish();
-        outcome.failure = prepare(inputs, scene);
+        outcome.failure = prepare(inputs, scene, settings.transparent);
         if (outcome.failure != gl::Failure::none) return false;
     }
     plan_passes(inputs, scene, settings);
@@ -335,8 +295,9 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     if (settings.sample_depths)
         depths_.record({camera, targets_.depth, point_sampler_, uniforms_.handle(), targets_.size_px()}, list);
     record_lights(inputs, scene, gpu, list, outcome);
+    record_catchers(inputs, gpu, list, outcome);
     record_blended(inputs, gpu, list, outcome);
-    record_finish(list);
+    record_finish(settings.transparent, list);
     outcome.ray_list_bytes = ray_list_.bytes();
     outcome.position_bytes = targets_.place_bytes();
     if (settings.measure_exposure)

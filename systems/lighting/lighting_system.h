@@ -10,6 +10,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/lighting/ambient.h"
+#include "systems/lighting/catcher_pass.h"
 #include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/edge_pass.h"
 #include "systems/lighting/exposure_meter.h"
@@ -38,11 +39,12 @@ struct LightingSettings {
     bool sample_depths = false;  // count the picture's pixels by view distance, for collect_depths()
     std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // limit of KeptVisibility, over all pictures
     glm::dvec2 jitter_px{0.0};  // from a pixel's middle to the place that it shows, each within 0.5
+    bool transparent = false;   // nothing is drawn behind all surfaces; the picture's alpha is its coverage
 };
 
-/// Deferred lighting: surfaces, a pass per light, blended surfaces, exposure. A light's pass is limited to its screen
-/// rectangle and to its farthest depth. Its only input from the shadow system are LightingInputs. Owns its device
-/// objects.
+/// Deferred lighting: surfaces, a pass per light, shadow catchers, blended surfaces, exposure. A light's pass is
+/// limited to its screen rectangle and to its farthest depth. Its only input from the shadow system are LightingInputs.
+/// Owns its device objects.
 class LightingSystem {
 public:
     explicit LightingSystem(gl::Device& device);
@@ -129,21 +131,25 @@ private:
     void note_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
                    shadow::LightingOutcome& outcome);
     LightProgram light_program(const shadow::LightingLight& light, ShaderPass output);
-    gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
+    gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, bool transparent);
     /// Collects what the camera sees; `jitters`: within a pixel beyond the picture's edges as well.
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu, bool jitters);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
                       const ConsumerItem& consumer);
+    void add_catcher(const InstanceItem& item, const GpuScene& gpu);
     void upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list);
     gl::ProgramHandle surface_program(bool unlit);
     void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
     void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                        gl::CommandList& list, shadow::LightingOutcome& outcome);
-    void plan_blended(const shadow::LightingInputs& inputs, shadow::LightingOutcome& outcome);
+    void plan_forward(const shadow::LightingInputs& inputs, ShaderPass output, shadow::LightingOutcome& outcome);
+    void record_catchers(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
+                         shadow::LightingOutcome& outcome);
+    void draw_catchers(const gl::PipelineState& state, const GpuScene& gpu, gl::CommandList& list) const;
     void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
                         shadow::LightingOutcome& outcome);
-    void record_finish(gl::CommandList& list);
+    void record_finish(bool transparent, gl::CommandList& list);
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
     void bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const;
@@ -163,13 +169,14 @@ private:
     LightingTargets targets_;
     RayList ray_list_;
     EdgePass edges_;
+    CatcherPass caught_;
     DepthSampler depths_;
     ExposureMeter exposure_;
     KeptVisibility kept_;
     LookupTimes lookup_times_;
     MidstFinder midst_;
     std::vector<LightPass> passes_;               // last record(): one per light of its inputs
-    std::vector<LightProgram> blended_programs_;  // last record(): one per light, for blended surfaces; may be empty
+    std::vector<LightProgram> forward_programs_;  // one per light, of what is drawn forward now; may be empty
     GrowingBuffer items_, uniforms_;
     shadow::CameraRecord camera_;  // last record(): that of its inputs, jittered
     bool has_places_ = false;      // the last record() wrote exact positions of surfaces
@@ -179,7 +186,7 @@ private:
     std::vector<std::uint32_t> visible_;
     std::vector<double> farthest_m_;  // per visible instance
     std::vector<DrawItem> draw_items_;
-    std::vector<SurfaceDraw> draws_, blended_;
+    std::vector<SurfaceDraw> draws_, blended_, catchers_;
     std::vector<std::byte> uniform_scratch_;
 };
 

@@ -33,7 +33,7 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
     // An explicitly requested visibility is never deferred.
     const bool may_wait = has_plain && output != ShaderPass::visibility;
     Reason lacks = Reason::buffer_failed;
-    const bool lists = light.row.sheets && output != ShaderPass::blended;
+    const bool lists = light.row.sheets && !is_forward(output);
     const bool has_surfaces = !light.row.rays || (has_places_ && (!lists || ray_list_));
     if (has_surfaces) {
         bool waits = false;
@@ -46,7 +46,7 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
         const auto made = [&](ShaderPass part) { return made_of(light.row, part); };
         LightProgram used{{},         light.map,    light.triangles, light.sampler,
                           light.rays, light.second, light.bounds,    light.ends};
-        if (light.row.antialias && output != ShaderPass::blended && edges_.is_there()) {
+        if (light.row.antialias && !is_forward(output) && edges_.is_there()) {
             shadow::ShaderKey middles = light.row;
             middles.antialias = false;
             const ShaderPass reads = output == ShaderPass::picture ? ShaderPass::kept : ShaderPass::kept_visibility;

@@ -19,7 +19,7 @@ private:
     /// Settings that pictures follow from, apart from their size, which cameras have.
     struct Settings {
         std::optional<float> exposure_ev;
-        bool shadows = true, rays = true, leave_out_dim_lights = true;
+        bool shadows = true, rays = true, leave_out_dim_lights = true, transparent = false;
         shadow::ShadowBudget budget;
         bool operator==(const Settings&) const = default;
     };

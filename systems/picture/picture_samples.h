@@ -25,8 +25,8 @@ public:
         nothing  // all samples are there
     };
     /// Begins a frame. `unchanged`: its picture would equal the last frame's, sample for sample. `most`: wanted samples
-    /// per pixel. Starts with the first sample after a change.
-    Draws begin(bool unchanged, std::uint32_t most, glm::uvec2 size_px);
+    /// per pixel. `transparent`: the picture's alpha is coverage. Starts with the first sample after a change.
+    Draws begin(bool unchanged, std::uint32_t most, glm::uvec2 size_px, bool transparent);
     /// Returns the place of this frame's sample in each pixel, from its middle, pixels.
     glm::dvec2 place_px() const;
     /// Records the frame's part, after its picture, as begin() returned it: adds a sample, and writes the mean.
@@ -42,7 +42,7 @@ public:
     std::uint32_t count() const { return draws_ == Draws::alone ? 1 : count_; }
 
 private:
-    bool provide(glm::uvec2 size_px);
+    bool provide(glm::uvec2 size_px, bool transparent);
     void release();
 
     gl::Device& device_;
@@ -50,6 +50,7 @@ private:
     gl::SamplerHandle sampler_{};
     gl::TextureHandle sum_{};
     gl::TargetHandle sum_target_{};
+    gl::BufferHandle count_buffer_{};  // {0}: opaque pictures count their samples in the sum's alpha
     glm::uvec2 size_px_{0, 0};
     Draws draws_ = Draws::alone;
     std::uint32_t count_ = 0;  // samples in the sum

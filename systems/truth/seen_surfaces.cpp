@@ -63,7 +63,7 @@ private:
 /// Finds the nearest hit of each ray.
 rays::PerLane<Hit> nearest_hits(const SceneSnapshot& scene, const visibility::CasterTrees& trees,
                                 const rays::RayPacket& rays, std::uint32_t& hint) {
-    const auto is_visible = [](const InstanceItem& item) { return item.visible; };
+    const auto is_visible = [](const InstanceItem& item) { return shows_surface(item); };
     rays::PerLane<Hit> hits;
     visibility::SceneWalk walk(scene, trees, rays);
     walk.visit(hint, is_visible, [&](std::uint32_t instance, const rays::MeshBvh& tree, rays::SegmentPacket& segments) {

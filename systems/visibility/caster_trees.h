@@ -52,7 +52,7 @@ private:
     std::span<const assets::Vertex> vertices_of(const SceneSnapshot& scene, std::uint32_t mesh);
 
     bool wants(const InstanceItem& item) const {
-        return item.casts || (of_ == TreesOf::casters_and_visible && item.visible);
+        return item.casts || (of_ == TreesOf::casters_and_visible && shows_surface(item));
     }
 
     const assets::MeshLibrary* library_;

@@ -79,6 +79,72 @@ TEST_P(EmbedLayersOfKind, EachViewShowsAWorldOfItsOwnCasters) {
 INSTANTIATE_TEST_SUITE_P(All, EmbedLayersOfKind, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                          [](const auto& row) { return std::string(kind_name(row.param)); });
 
+/// Four viewports of one scene, each with its own light, casters, receivers and surfaces.
+TEST_F(EmbedLayers, FourViewportsShowFourWorldsEachAsIfAlone) {
+    constexpr std::size_t kWorlds = 4;
+    const game::Shape floor = game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 6.0}, {6.0, 0.0, 0.0});
+    const LightKind kinds[kWorlds] = {LightKind::directional, LightKind::spot, LightKind::point, LightKind::point};
+    const auto box_of = [](std::size_t i) {
+        const double x = -0.9 + 0.6 * static_cast<double>(i);
+        return game::make_box({x, 0.3, -0.4}, {x + 0.5, 0.9 + 0.1 * static_cast<double>(i), 0.3});
+    };
+    const auto light_of = [&](std::size_t i, ShadowLayers layers) {
+        const glm::dvec3 at_m(1.5 - static_cast<double>(i), 3.0, 1.0 - 0.5 * static_cast<double>(i));
+        return LightDesc{.light = {.kind = kinds[i], .outer_cone_rad = 0.9f}, .position_m = at_m, .direction = -at_m, .shadow = {.layers = layers}};
+    };
+    const auto add_to = [](Shadows& to, const game::Shape& shape, ShadowLayers layers) {
+        const auto mesh = to.add_mesh({.positions_m = shape.positions, .indices = shape.indices});
+        return to.add_caster({.mesh = mesh.value(), .cast_layers = layers, .receive_layers = layers});
+    };
+    LightId lamps[kWorlds];
+    CasterId boxes[kWorlds];
+    View views[kWorlds];
+    std::vector<std::unique_ptr<Engine>> engines;
+    for (std::size_t i = 0; i < kWorlds; ++i) {
+        const auto own = static_cast<ShadowLayers>(1 << i);
+        add_to(*shadows, floor, own);
+        boxes[i] = add_to(*shadows, box_of(i), own);
+        lamps[i] = shadows->add_light(light_of(i, own));
+        engines.push_back(std::make_unique<Engine>(Depths::usual_float));
+        engines[i]->add(floor.positions, floor.indices);
+        engines[i]->add(box_of(i).positions, box_of(i).indices);
+        const glm::dvec3 from_m(0.5 - static_cast<double>(i), 2.5, 4.0);
+        views[i].world_from_view = glm::inverse(glm::lookAt(from_m, glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
+        views[i].normal_texture = engines[i]->normals;
+        views[i].lights = {&lamps[i], 1};
+        views[i].cast_layers = views[i].receive_layers = own;
+        draw_depths(views[i], *engines[i]);
+    }
+    std::vector<std::uint8_t> alone[kWorlds], without[kWorlds];
+    for (std::size_t i = 0; i < kWorlds; ++i)
+        for (const bool casts : {true, false}) {
+            auto single = std::move(Shadows::create(options()).value());
+            add_to(*single, floor, kAllShadowLayers);
+            if (casts) add_to(*single, box_of(i), kAllShadowLayers);
+            single->add_light(light_of(i, kAllShadowLayers));
+            View plain = views[i];
+            plain.lights = {};
+            plain.cast_layers = plain.receive_layers = kAllShadowLayers;
+            (casts ? alone : without)[i] = layer(single->render(plain));
+        }
+    for (int frame = 0; frame < 3; ++frame) {
+        const auto masks = shadows->render(views);
+        for (std::size_t i = 0; i < kWorlds; ++i) {
+            SCOPED_TRACE(i);
+            EXPECT_EQ(masks[i].layers, 1u);
+            EXPECT_EQ(layer(masks[i]), alone[i]) << "to the bit";
+            EXPECT_GT(differing(alone[i], without[i]), 400u) << "control: its box throws a shadow";
+        }
+    }
+    // Control: a box of the first world in the second one's layer leaves the first and comes to the second.
+    const MeshId mesh{boxes[0].index, boxes[0].version};
+    shadows->set_caster(boxes[0], {.mesh = mesh, .cast_layers = 2, .receive_layers = 2});
+    const auto masks = shadows->render(views);
+    EXPECT_GT(differing(layer(masks[0]), alone[0]), 400u);
+    EXPECT_GT(differing(layer(masks[1]), alone[1]), 100u);
+    for (const std::size_t i : {std::size_t{2}, std::size_t{3}}) EXPECT_EQ(layer(masks[i]), alone[i]);
+}
+
 TEST_F(EmbedLayers, ViewsThatSeeTheSameShareTheirMaps) {
     build(LightKind::point);
     const View plain[] = {view, view};

@@ -4,9 +4,10 @@ if(GNOMON_SAMPLE)
     parallel_light_gl_test.cpp
     picture_samples_gl_test.cpp
     picture_scale_gl_test.cpp
+    shadow_catcher_gl_test.cpp
     smoothed_edges_gl_test.cpp
     unlit_gl_test.cpp
-    LIBRARIES gnomon_sample)
+    LIBRARIES gnomon_sample gnomon_oracle)
 endif()
 # An engine that shares its context with Gnomon.
 if(GNOMON_SAMPLE)

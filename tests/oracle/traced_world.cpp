@@ -71,7 +71,7 @@ TracedWorld::TracedWorld(const SceneSnapshot& snapshot, const assets::MeshLibrar
     std::map<std::uint32_t, std::vector<glm::dvec3>> positions;  // by mesh
     for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
         const InstanceItem& item = snapshot.instances[i];
-        if (item.mesh >= library_.meshes.size() || !(item.visible || item.casts)) continue;
+        if (item.mesh >= library_.meshes.size() || !(shows_surface(item) || item.casts)) continue;
         const auto [of_mesh, is_new] = positions.try_emplace(item.mesh);
         if (is_new) of_mesh->second = posed_positions(snapshot, library, item.mesh);
         add_instance(item, static_cast<std::uint32_t>(i), of_mesh->second);
@@ -120,7 +120,7 @@ void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index,
             t.instance = index;
             t.mesh = item.mesh;
             t.material = submesh.material;
-            t.visible = item.visible;
+            t.visible = shows_surface(item);
             t.cast_layers = item.casts ? item.cast_layers : ShadowLayers{0};
             t.receive_layers = item.receives ? item.receive_layers : ShadowLayers{0};
             t.mirrored = item.winding.mirrored;

@@ -58,6 +58,13 @@ INSTANTIATE_TEST_SUITE_P(
                                          gl::Failure::link_failed, gl::Failure::context_lost)),
     name_of);
 
+INSTANTIATE_TEST_SUITE_P(
+    EachFailureOfCatchers, EveryCallFails,
+    ::testing::Combine(::testing::Values(Scenario{"Catchers", catcher_scene}),
+                       ::testing::Values(gl::Failure::out_of_memory, gl::Failure::incomplete_target,
+                                         gl::Failure::compile_failed, gl::Failure::context_lost)),
+    name_of);
+
 /// Whatever fails of rays and sheets fails in the same way for the executor's every reason.
 INSTANTIATE_TEST_SUITE_P(
     EachFailureOfRays, EveryCallFails,

@@ -143,7 +143,8 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
     const bool is_sampler =
         starts_with(call.label, "shadow compare") || call.label == "shadow depths" || call.label == "shadow moments";
     const bool of_all = is_sampler || call.label == "caster triangles" || call.label == "caster masks" ||
-                        (call.frame == 0 && call.label == "instances");
+                        starts_with(call.label, "catcher ") || call.label == "caught light" ||
+                        call.label == "caught light, depth" || (call.frame == 0 && call.label == "instances");
     // Whoever asks by rays shares them.
     bool of_rays = call.label.find("as found") != std::string::npos;
     for (const char* shared : {"ray ", "sheet ", "shadow sheet ", "surface places", "surface with places",

@@ -71,6 +71,16 @@ FaultScene exact_scene() {
     return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
 }
 
+FaultScene catcher_scene() {
+    const auto world = std::make_shared<TestWorld>();
+    const TestWorld::Stage stage = world->add_stage();
+    world->registry.patch<MeshRef>(stage.plane, [](MeshRef& m) { m.shadow_catcher = true; });
+    world->add_light(LightKind::directional, kLightPlace_m, "sun");
+    world->add_light(LightKind::point, {0, 4, 0}, "point");
+    const auto play = [world, box = stage.box](int frame) { world->move(box, {0.01 * frame, 1, 0}); };
+    return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
+}
+
 FaultScene courtyard_scene() { return courtyard(ShadowTuning::Cascades{}.splits, ShadowTuning::Cascades{}.fit); }
 // A held fit would go on from what it held while depths were missing, not from what it holds without a fault.
 FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled, ShadowFit::tight); }

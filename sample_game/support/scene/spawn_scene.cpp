@@ -116,7 +116,8 @@ private:
     void add_mesh(ecs::Entity entity, const assets::Node& node) {
         registry_.emplace<MeshRef>(entity, {.mesh = static_cast<std::uint32_t>(node.mesh),
                                             .visible = node.visible,
-                                            .receives_shadow = node.receives_shadow});
+                                            .receives_shadow = node.receives_shadow,
+                                            .shadow_catcher = node.shadow_catcher});
         if (node.casts_shadow) registry_.emplace<ShadowCaster>(entity);
         if (!node.morph_weights.empty()) registry_.emplace<MorphWeights>(entity, {node.morph_weights});
     }

@@ -1,4 +1,5 @@
 // Surfaces as the camera sees them. The linker drops outputs that the fragment shader does not read.
+// INVARIANT_POSITION: several programs draw the same depths.
 #include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"
@@ -13,6 +14,9 @@ layout(location = kNormalVarying) out vec3 fragment_normal;
 layout(location = kUvVarying) out vec2 fragment_uv;
 layout(location = kItemVarying) flat out uvec2 fragment_item;
 layout(location = kCornerVarying) flat out uint corner;   // a vertex of the triangle, for lighting/gbuffer/visible_triangle.glsl
+#ifdef INVARIANT_POSITION
+invariant gl_Position;
+#endif
 
 void main() {
     InstanceRecord instance = instance_record(draw_item.x);

@@ -7,7 +7,10 @@ layout(std140, binding = kAmbientBlock) uniform AmbientBlock {
                    // shown unlit
 } ambient;
 
+// Returns the illuminance of a surface, lux times ambient.sky.w.
+vec3 ambient_irradiance(vec3 normal) { return mix(ambient.ground.rgb, ambient.sky.rgb, 0.5 + 0.5 * normal.y); }
+
 vec3 ambient_light(vec3 colour, vec3 normal) {
     const float kInversePi = 0.318309886;
-    return colour * kInversePi * mix(ambient.ground.rgb, ambient.sky.rgb, 0.5 + 0.5 * normal.y);
+    return colour * kInversePi * ambient_irradiance(normal);
 }

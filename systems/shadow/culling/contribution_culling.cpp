@@ -53,6 +53,9 @@ bool comes_before(ecs::Entity a, ecs::Entity b) {
 
 double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                           std::span<const std::uint32_t> receivers, double exposure) {
+    // Shares of light show at any brightness.
+    const auto catches = [&](std::uint32_t r) { return scene.instances[r].shadow_catcher; };
+    if (std::any_of(receivers.begin(), receivers.end(), catches)) return std::numeric_limits<double>::infinity();
     return exposure * most_steps(scene, gpu, light, receivers,
                                  [&](const math::Aabb& box_ws) { return math::distance(box_ws, light.position_ws_m); });
 }

@@ -100,7 +100,7 @@ struct LookupFailure {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights
     Reason reason = Reason::none;
     bool unshadowed = false;    // it is drawn without its shadow, or not at all; else by one tap of its map
-    bool blended_only = false;  // on blended surfaces; on all others its shadow is what it should be
+    bool forward_only = false;  // on blended surfaces or shadow catchers; on all others its shadow is what it should be
     LookupAccuracy fallback;    // accuracy of that one tap
     bool operator==(const LookupFailure&) const = default;
 };

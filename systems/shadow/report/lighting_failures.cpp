@@ -34,8 +34,8 @@ void add_fallback(const LookupFailure& failure, LightReport& report) {
     report.resolved = again ? wider(report.resolved, plain.resolved) : plain.resolved;
 }
 
-/// Describes a failure on blended surfaces alone: on all others the report holds already.
-void add_blended(const LookupFailure& failure, LightReport& report) {
+/// Describes a failure on blended surfaces or shadow catchers alone: on all others the report holds already.
+void add_forward(const LookupFailure& failure, LightReport& report) {
     report.state = LightState::degraded;
     report.reason = failure.reason;
     report.predicted_error_px = std::max(report.predicted_error_px, failure.fallback.predicted_error_px);
@@ -50,10 +50,10 @@ void add_outcome(const LightingOutcome& outcome, FrameReport& report) {
     for (const LookupFailure& failure : outcome.failures) {
         LightReport& light = report.lights[failure.light];
         const bool skipped = light.state == LightState::skipped;  // in another picture
-        if (failure.unshadowed && !failure.blended_only)
+        if (failure.unshadowed && !failure.forward_only)
             add_unshadowed(failure, light);
-        else if (!skipped && failure.blended_only)
-            add_blended(failure, light);
+        else if (!skipped && failure.forward_only)
+            add_forward(failure, light);
         else if (!skipped)
             add_fallback(failure, light);
     }

@@ -1,0 +1,494 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <random>
+#include <utility>
+
+#include "systems/extract/light_facts.h"
+#include "systems/lighting/ambient.h"
+#include "tests/gl/traced_frame_fixture.h"
+
+// Shadow catchers: invisible receivers whose alpha is the share of their light that casters take, pixel by pixel
+// against rays; and the alpha of the picture around them.
+namespace gnomon {
+namespace {
+
+constexpr glm::uvec2 kSize_px{192, 160};
+/// Hard shadows at 1024 px a map: pixels at edges may be a texel off, nothing else.
+constexpr double kMostWrong = 0.02;
+constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};  // Rec. 709
+const LightShadow kHard{.filter = ShadowFilter::hard, .resolution_px = 1024};
+
+double as_light(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+double encoded_of(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+}
+
+/// Lays a premultiplied picture over an opaque one as docs/how-to/compositing.md says: in light.
+std::vector<std::uint8_t> composed(const std::vector<std::uint8_t>& over, const std::vector<std::uint8_t>& photograph) {
+    std::vector<std::uint8_t> out(photograph.size(), 255);
+    for (std::size_t i = 0; i < out.size(); i += 4)
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const double behind = as_light(photograph[c] / 255.0) * (1.0 - over[i + 3] / 255.0);
+            out[c] = static_cast<std::uint8_t>(std::lround(255.0 * encoded_of(std::min(as_light(over[c] / 255.0) + behind, 1.0))));
+        }
+    return out;
+}
+
+/// Noise over gradients: any level of any channel.
+std::vector<std::uint8_t> like_a_photograph(glm::uvec2 size_px) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> noise(-40.0, 40.0);
+    std::vector<std::uint8_t> rgba;
+    for (std::uint32_t y = 0; y < size_px.y; ++y)
+        for (std::uint32_t x = 0; x < size_px.x; ++x) {
+            const double along[] = {double(x) / size_px.x, double(y) / size_px.y, 1.0 - double(x) / size_px.x};
+            for (const double share : along)
+                rgba.push_back(static_cast<std::uint8_t>(std::clamp(255.0 * share + noise(random), 0.0, 255.0)));
+            rgba.push_back(255);
+        }
+    return rgba;
+}
+
+class ShadowCatcher : public TracedFrameTest {
+protected:
+    void SetUp() override {
+        TracedFrameTest::SetUp();
+        settings.viewport_px = kSize_px;
+        settings.transparent = true;
+        settings.rays = false;
+    }
+    ecs::Entity catcher(std::uint32_t mesh, const Transform& at = {}, bool casts = false) {
+        const ecs::Entity entity = place(mesh, at, casts);
+        world.patch<MeshRef>(entity, [](MeshRef& m) { m.shadow_catcher = true; });
+        return entity;
+    }
+    std::uint32_t ground_mesh(std::optional<std::uint32_t> material = {}) {
+        return add_mesh(game::make_card(glm::dvec3(0.0), {0.0, 0.0, 8.0}, {8.0, 0.0, 0.0}), material);
+    }
+    std::uint32_t box_mesh() { return add_analysed(game::make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})); }
+    void look(const glm::dvec3& from_m = {0.0, 6.0, 5.0}) { add_camera({.fov_y_rad = 1.0}, from_m, -from_m); }
+    /// A catching ground, a box above it, a camera.
+    void make_stage() {
+        ground = catcher(ground_mesh());
+        box = place(box_mesh(), {.translation_m = {0.3, 1.0, 0.2}});
+        look();
+    }
+    /// Two lamps of other colours and places, one without a shadow of the box on half of the ground.
+    void add_coloured_lights() {
+        add_light({.kind = LightKind::point, .colour = {1.0f, 0.2f, 0.1f}, .intensity = 900.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+        add_light({.kind = LightKind::directional, .colour = {0.1f, 0.3f, 1.0f}, .intensity = 40.0f}, {}, {-1.0, -2.0, -0.5}, kHard);
+    }
+
+    /// Light on a surface, lux per channel, without casters. 0 where it faces away, or is out of reach.
+    static glm::dvec3 irradiance(const LightItem& light, const glm::dvec3& at_ws_m, const glm::dvec3& normal) {
+        const bool parallel = light_facts(light.kind).parallel;
+        const glm::dvec3 way = parallel ? light.rotation_ws[2] : light.position_ws_m - at_ws_m;
+        const double distance_m = parallel ? 1.0 : glm::length(way);
+        const double cosine = glm::dot(normal, way) / glm::length(way);
+        double strength = static_cast<double>(light.intensity) / (distance_m * distance_m);
+        if (light.kind == LightKind::spot) {
+            const double inner = std::cos(light.inner_cone_rad), outer = std::cos(light.outer_cone_rad);
+            const double share = glm::clamp((glm::dot(way, light.rotation_ws[2]) / distance_m - outer) / (inner - outer), 0.0, 1.0);
+            strength *= share * share;
+        }
+        return glm::dvec3(light.colour) * (strength * std::max(cosine, 0.0));
+    }
+
+    struct Expected {
+        std::vector<double> alpha;         // bottom row first; 0: no surface
+        std::vector<std::uint8_t> scored;  // the answer is certain
+        std::vector<std::uint8_t> catches, opaque;
+    };
+    /// What rays say of the picture's alpha: catchers count as surfaces, and casters take light of them.
+    Expected expected() {
+        SceneSnapshot scene = frame().snapshot();
+        std::vector<std::uint8_t> is_catcher;
+        for (InstanceItem& item : scene.instances) is_catcher.push_back(std::exchange(item.shadow_catcher, false));
+        const ConsumerItem& camera = scene.consumers.front();
+        const oracle::ReferenceTracer tracer(scene, library, camera.position_ws_m);
+        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+        std::vector<oracle::LightTruth> truths;
+        for (const LightItem& light : scene.lights) truths.push_back(tracer.trace_light(hits, light, true));
+        lighting::MidstFinder finder;
+        const lighting::AmbientRecord ambient = lighting::ambient_for(lighting::scene_light(frame().snapshot(), finder.find(frame().snapshot())));
+        Expected e;
+        for (std::size_t i = 0; i < hits.count(); ++i) {
+            const oracle::PlacedTriangle seen = hits.triangle[i] == oracle::kNoTriangle ? oracle::PlacedTriangle{} : tracer.source_of(hits.triangle[i]);
+            const bool catches = seen.exists() && is_catcher[seen.instance] != 0;
+            e.catches.push_back(catches);
+            e.opaque.push_back(seen.exists() && !catches);
+            e.scored.push_back(1);
+            e.alpha.push_back(seen.exists() && !catches ? 1.0 : 0.0);
+            if (!catches) continue;
+            const glm::dvec3& normal = hits.normal_ws[i];
+            const glm::dvec3 at_ws_m = hits.position_rel_m[i] + camera.position_ws_m;
+            double falls = glm::dot(kLuminance, glm::mix(glm::dvec3(ambient.ground_lux), glm::dvec3(ambient.sky_lux), 0.5 + 0.5 * normal.y));
+            double taken = 0.0;
+            for (std::size_t l = 0; l < truths.size(); ++l) {
+                const double of_light = glm::dot(kLuminance, irradiance(scene.lights[l], at_ws_m, normal));
+                falls += of_light;
+                taken += of_light * (1.0 - static_cast<double>(truths[l].visibility[i]));
+                if (truths[l].ambiguous[i]) e.scored.back() = 0;
+            }
+            if (falls > 0.0) e.alpha.back() = taken / falls;
+        }
+        return e;
+    }
+
+    /// Alpha of the picture, bottom row first as the tracer has it.
+    std::vector<int> alphas() {
+        const std::vector<std::uint8_t> rgba = picture();
+        std::vector<int> out;
+        for (std::uint32_t y = 0; y < settings.viewport_px.y; ++y)
+            for (std::uint32_t x = 0; x < settings.viewport_px.x; ++x)
+                out.push_back(rgba[((settings.viewport_px.y - 1 - y) * settings.viewport_px.x + x) * 4 + 3]);
+        return out;
+    }
+    struct Compared {
+        std::size_t catches = 0, dark = 0, wrong = 0, wrong_elsewhere = 0, coloured = 0;
+        std::string text() const {
+            return std::to_string(catches) + " pixels of catchers, " + std::to_string(dark) + " darkened, " + std::to_string(wrong) +
+                   " wrong, elsewhere " + std::to_string(wrong_elsewhere);
+        }
+    };
+    /// Compares with rays, to 1/255 beyond rounding.
+    Compared compared() { return compared(expected()); }
+    Compared compared(const Expected& truth) {
+        const std::vector<int> drawn = alphas();
+        const std::vector<std::uint8_t> rgba = picture();
+        Compared c;
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            const bool is_wrong = std::abs(drawn[i] - 255.0 * truth.alpha[i]) > 1.5;
+            if (!truth.catches[i]) {
+                c.wrong_elsewhere += is_wrong;
+                continue;
+            }
+            const std::size_t x = i % settings.viewport_px.x, y = settings.viewport_px.y - 1 - i / settings.viewport_px.x;
+            for (std::size_t k = 0; k < 3; ++k) c.coloured += rgba[(y * settings.viewport_px.x + x) * 4 + k] != 0;
+            if (!truth.scored[i]) continue;
+            ++c.catches;
+            c.dark += truth.alpha[i] > 0.02;
+            c.wrong += is_wrong;
+        }
+        return c;
+    }
+    void expect_rays(std::size_t least_dark, const char* what = "") {
+        const Compared c = compared();
+        EXPECT_GT(c.catches, 3000u) << what << ": " << c.text();
+        EXPECT_GT(c.dark, least_dark) << what << ": " << c.text();
+        EXPECT_LT(static_cast<double>(c.wrong), kMostWrong * static_cast<double>(c.catches)) << what << ": " << c.text();
+        EXPECT_LT(c.wrong_elsewhere, 60u) << what << ": " << c.text() << ": the rim of surfaces";
+    }
+    /// Draws the same without what stands on the ground.
+    void take_caster_away() {
+        world.destroy(box);
+        draw();
+    }
+
+    ecs::Entity ground, box;
+};
+
+class ShadowCatcherOfKind : public ShadowCatcher, public ::testing::WithParamInterface<LightKind> {};
+
+TEST_P(ShadowCatcherOfKind, HasTheShareThatCastersTakeAsAlphaAndNoColour) {
+    make_stage();
+    add_light({.kind = GetParam(), .intensity = 800.0f, .outer_cone_rad = 0.9f}, {-2.0, 5.0, 1.0}, {2.0, -5.0, -1.0}, kHard);
+    draw();
+    expect_rays(300);
+    const Compared c = compared();
+    EXPECT_EQ(c.coloured, 0u) << "premultiplied black";
+    Expected lit = expected();
+    for (std::size_t i = 0; i < lit.alpha.size(); ++i)
+        if (lit.catches[i]) lit.alpha[i] = 0.0;
+    EXPECT_GT(compared(lit).wrong, 300u) << "control: a catcher without shadow is told apart";
+    take_caster_away();
+    for (const int alpha : alphas()) ASSERT_EQ(alpha, 0) << "no caster, no alpha";
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ShadowCatcherOfKind, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
+                         [](const auto& test) { return kind_name(test.param); });
+
+TEST_F(ShadowCatcher, LaysNothingOverAPhotographWhereNothingCasts) {
+    make_stage();
+    add_coloured_lights();
+    draw();
+    const std::vector<std::uint8_t> photograph = like_a_photograph(kSize_px), over = composed(picture(), photograph);
+    const Expected truth = expected();
+    std::size_t lit = 0, darker = 0, wrong = 0;
+    for (std::size_t i = 0; i < truth.alpha.size(); ++i) {
+        const std::size_t at = ((kSize_px.y - 1 - i / kSize_px.x) * kSize_px.x + i % kSize_px.x) * 4;
+        if (truth.opaque[i] || !truth.scored[i]) continue;
+        for (std::size_t c = at; c < at + 3; ++c) {
+            const double shown = 255.0 * encoded_of(as_light(photograph[c] / 255.0) * (1.0 - truth.alpha[i]));
+            wrong += std::abs(over[c] - shown) > 1.5;
+            lit += truth.alpha[i] == 0.0;
+            darker += over[c] + 10 < photograph[c];
+        }
+    }
+    EXPECT_GT(lit, 30000u);
+    EXPECT_GT(darker, 3000u);
+    EXPECT_LT(static_cast<double>(wrong), kMostWrong * 3.0 * kSize_px.x * kSize_px.y);
+    take_caster_away();
+    EXPECT_EQ(composed(picture(), photograph), photograph) << "to the bit";
+}
+
+/// A photograph of the very ground: the composite is the lit scene itself.
+TEST_F(ShadowCatcher, CompositeEqualsTheLitSceneToTheLastStep) {
+    assets::Texture grain{.name = "grain", .width = kSize_px.x, .height = kSize_px.y, .rgba = like_a_photograph(kSize_px)};
+    library.textures.push_back(grain);
+    const std::uint32_t real = add_material({.name = "real", .base_colour = glm::vec4(0.6f, 0.6f, 0.6f, 1.0f), .base_colour_texture = 0, .metallic = 0.0f, .roughness = 1.0f});
+    const std::uint32_t mesh = ground_mesh(real);
+    ground = place(mesh, {}, false);
+    box = place(box_mesh(), {.translation_m = {0.3, 1.0, 0.2}});
+    look();
+    for (const double side : {-1.0, 1.0})
+        add_light({.kind = LightKind::directional, .intensity = 300.0f}, {}, {side, -1.5, -0.3 * side}, kHard);
+    settings.transparent = false;
+    settings.exposure_ev = 10.0f;  // dark, where the tone curve is nearly straight
+    draw();
+    const std::vector<std::uint8_t> whole = picture();
+    world.patch<ShadowCaster>(box, [](ShadowCaster& c) { c.enabled = false; });
+    world.patch<MeshRef>(box, [](MeshRef& m) { m.visible = false; });
+    draw();
+    const std::vector<std::uint8_t> photograph = picture();
+    world.patch<ShadowCaster>(box, [](ShadowCaster& c) { c.enabled = true; });
+    world.patch<MeshRef>(box, [](MeshRef& m) { m.visible = true; });
+    world.patch<MeshRef>(ground, [](MeshRef& m) { m.shadow_catcher = true; });
+    settings.transparent = true;
+    draw();
+    const std::vector<std::uint8_t> over = picture(), composite = composed(over, photograph);
+    std::size_t lit = 0, dark = 0;
+    int most_lit = 0, most_dark = 0;
+    for (std::size_t i = 0; i < whole.size(); i += 4)
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const int apart = std::abs(int{whole[c]} - int{composite[c]});
+            const bool casts_here = over[i + 3] > 0 && over[i + 3] < 255;
+            (casts_here ? dark : lit) += 1;
+            int& most = casts_here ? most_dark : most_lit;
+            most = std::max(most, apart);
+        }
+    EXPECT_GT(lit, 30000u);
+    EXPECT_GT(dark, 3000u);
+    EXPECT_LE(most_lit, 1);
+    EXPECT_LE(most_dark, 3) << "the tone curve's bend, and gloss";
+    EXPECT_NE(whole, photograph) << "control";
+}
+
+TEST_F(ShadowCatcher, WeighsColouredLightsByTheirLuminance) {
+    make_stage();
+    add_coloured_lights();
+    draw();
+    expect_rays(600);
+    // Control: the mean of both lights would be another picture.
+    Expected even = expected();
+    for (double& alpha : even.alpha)
+        if (alpha > 0.02 && alpha < 1.0) alpha = 0.5;
+    EXPECT_GT(compared(even).wrong, 600u);
+}
+
+TEST_F(ShadowCatcher, LiesUnderABlendedSurface) {
+    make_stage();
+    const std::uint32_t glass = add_material({.name = "glass", .base_colour = glm::vec4(0.0f, 0.0f, 0.0f, 0.5f), .metallic = 1.0f, .roughness = 1.0f, .alpha_mode = assets::AlphaMode::blend});
+    add_coloured_lights();
+    draw();
+    const std::vector<int> bare = alphas();
+    place(add_mesh(game::make_card({0.0, 0.3, 0.0}, {0.0, 0.0, 20.0}, {20.0, 0.0, 0.0}), glass), {}, false);
+    draw();
+    const std::vector<int> covered = alphas();
+    std::size_t darkened = 0;
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+        if (bare[i] == 255) continue;
+        darkened += bare[i] > 10;
+        ASSERT_NEAR(covered[i], 255.0 * 0.5 + 0.5 * bare[i], 2.0) << i;
+    }
+    EXPECT_GT(darkened, 500u);
+}
+
+TEST_F(ShadowCatcher, ShowsOnlyTheFacesThatItsMaterialHas) {
+    const std::uint32_t both = add_material({.name = "both", .metallic = 0.0f, .double_sided = true});
+    const std::uint32_t mesh = ground_mesh(), two_sided = ground_mesh(both);
+    ground = catcher(mesh);
+    box = place(box_mesh(), {.translation_m = {0.3, -1.0, 0.2}});
+    add_light({.kind = LightKind::point, .intensity = 900.0f}, {-1.0, -4.0, 1.0}, {0.0, 1.0, 0.0}, kHard);
+    look({0.0, -6.0, 5.0});
+    draw();
+    for (const int alpha : alphas()) ASSERT_TRUE(alpha == 0 || alpha == 255) << "from behind there is no catcher";
+    world.patch<MeshRef>(ground, [&](MeshRef& m) { m.mesh = two_sided; });
+    draw();
+    expect_rays(300, "from below, by a lamp below");
+}
+
+TEST_F(ShadowCatcher, HasHolesWhereItsMaterialIsCutOut) {
+    assets::Texture half{.name = "half", .width = 64, .height = 64, .rgba = {}, .linear_filter = false};
+    for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+        const std::uint8_t alpha = i % 64 < 32 ? 0 : 255;
+        half.rgba.insert(half.rgba.end(), {255, 255, 255, alpha});
+    }
+    library.textures.push_back(half);
+    const std::uint32_t cut = add_material({.name = "cut", .base_colour_texture = 0, .metallic = 0.0f, .alpha_mode = assets::AlphaMode::mask});
+    ground = catcher(ground_mesh(cut));
+    box = place(box_mesh(), {.translation_m = {0.0, 1.0, 0.0}});
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.2, -1.0, -0.2}, kHard);
+    look();
+    draw();
+    const Compared c = compared();
+    EXPECT_GT(c.dark, 100u) << c.text();
+    EXPECT_LT(static_cast<double>(c.wrong), kMostWrong * static_cast<double>(c.catches)) << c.text();
+    EXPECT_LT(c.wrong_elsewhere, 60u) << c.text();
+    EXPECT_LT(c.catches, kSize_px.x * kSize_px.y / 2u) << "control: the other half is a hole";
+}
+
+TEST_F(ShadowCatcher, CastsIfItIsACasterAsWell) {
+    ground = catcher(ground_mesh());
+    box = catcher(box_mesh(), {.translation_m = {0.3, 0.9, 0.2}}, true);
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHard);
+    look();
+    draw();
+    expect_rays(300);
+    EXPECT_EQ(std::count(alphas().begin(), alphas().end(), 255), 0) << "ambient light stays, so that nothing is opaque";
+    world.patch<ShadowCaster>(box, [](ShadowCaster& c) { c.enabled = false; });
+    draw();
+    for (const int alpha : alphas()) ASSERT_EQ(alpha, 0);
+}
+
+TEST_F(ShadowCatcher, TakesNothingWithoutLight) {
+    make_stage();
+    draw();
+    const Expected truth = expected();
+    const std::vector<int> drawn = alphas();
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        if (truth.catches[i]) {
+            ASSERT_EQ(drawn[i], 0) << "no light at all";
+        }
+    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 0.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    draw();
+    EXPECT_EQ(alphas(), drawn) << "a lamp that is off";
+    world.patch<Light>(lamp, [](Light& l) { l.intensity = 800.0f; });
+    draw();
+    EXPECT_NE(alphas(), drawn) << "control";
+}
+
+TEST_F(ShadowCatcher, OfOtherLayersOrNoReceiverCatchesNothing) {
+    make_stage();
+    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    const auto caught = [&] {
+        draw();
+        const std::vector<int> all = alphas();
+        return std::count_if(all.begin(), all.end(), [](int alpha) { return alpha > 0 && alpha < 255; });
+    };
+    EXPECT_GT(caught(), 300);
+    world.patch<MeshRef>(ground, [](MeshRef& m) { m.receives_shadow = false; });
+    EXPECT_EQ(caught(), 0);
+    world.patch<MeshRef>(ground, [](MeshRef& m) { m.receives_shadow = true; m.shadow_layers = 2; });
+    world.patch<LightShadow>(lamp, [](LightShadow& s) { s.layers = 1; });
+    EXPECT_EQ(caught(), 0);
+    world.patch<LightShadow>(lamp, [](LightShadow& s) { s.layers = 2; });
+    EXPECT_GT(caught(), 300);
+}
+
+TEST_F(ShadowCatcher, TwiceAtOnePlaceIsOne) {
+    make_stage();
+    add_coloured_lights();
+    draw();
+    const std::vector<int> once = alphas();
+    catcher(world.get<MeshRef>(ground)->mesh);
+    draw();
+    const std::vector<int> twice = alphas();
+    for (std::size_t i = 0; i < once.size(); ++i) ASSERT_LE(std::abs(once[i] - twice[i]), 1) << i;
+}
+
+TEST_F(ShadowCatcher, IsExactWithRays) {
+    make_stage();
+    settings.rays = true;
+    add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, {.filter = ShadowFilter::exact});
+    draw();
+    const Compared c = compared();
+    EXPECT_GT(c.dark, 300u) << c.text();
+    EXPECT_EQ(c.wrong, 0u) << c.text();
+}
+
+TEST_F(ShadowCatcher, DarkensWhatIsBehindItInAnOpaquePicture) {
+    make_stage();
+    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    settings.transparent = false;
+    draw();
+    const std::vector<std::uint8_t> caught = picture();
+    world.patch<LightShadow>(lamp, [](LightShadow& s) { s.enabled = false; });
+    draw();
+    const std::vector<std::uint8_t> unshadowed = picture();
+    world.destroy(ground);
+    draw();
+    const std::vector<std::uint8_t> without = picture();
+    std::size_t darker = 0, brighter = 0;
+    for (std::size_t i = 0; i < caught.size(); ++i) {
+        darker += caught[i] + 3 < unshadowed[i];
+        brighter += caught[i] > unshadowed[i];
+    }
+    EXPECT_GT(darker, 600u);
+    EXPECT_EQ(brighter, 0u);
+    for (std::size_t i = 3; i < caught.size(); i += 4) ASSERT_EQ(caught[i], 255);
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < without.size(); ++i) other += std::abs(int{without[i]} - int{unshadowed[i]}) > 1;
+    EXPECT_LT(other, 40u) << "a catcher without shadow is invisible; ambient light follows the scene's size";
+}
+
+TEST_F(ShadowCatcher, AlphaHasTheSamplesOfAStillPicture) {
+    make_stage();
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHard);
+    draw();
+    std::vector<int> one = alphas();
+    std::sort(one.begin(), one.end());
+    const auto values_of_one = std::unique(one.begin(), one.end()) - one.begin();
+    settings.still_samples = 16;
+    for (int i = 0; i < 40 && frame().report().samples < 16; ++i) draw();
+    ASSERT_EQ(frame().report().samples, 16u);
+    const std::vector<int> many = alphas();
+    std::vector<int> sorted = many;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_GT(std::unique(sorted.begin(), sorted.end()) - sorted.begin(), values_of_one + 10) << "edges have values between";
+    const Expected truth = expected();
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < many.size(); ++i) wrong += std::abs(many[i] - 255.0 * truth.alpha[i]) > 20.0;
+    EXPECT_LT(static_cast<double>(wrong), 0.06 * static_cast<double>(many.size())) << "apart from edges";
+    // Colours stay multiplied by alpha: none is brighter than full white of that coverage.
+    const std::vector<std::uint8_t> rgba = picture();
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        for (std::size_t c = i; c < i + 3; ++c) ASSERT_LE(as_light((rgba[c] - 1.0) / 255.0), (rgba[i + 3] + 1.0) / 255.0);
+}
+
+TEST_F(ShadowCatcher, SmoothedEdgesKeepAlpha) {
+    make_stage();
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHard);
+    draw();
+    const std::vector<int> plain = alphas();
+    settings.smooth_edges = true;
+    draw();
+    const std::vector<int> smooth = alphas();
+    std::size_t changed = 0, by_much = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        changed += plain[i] != smooth[i];
+        by_much += std::abs(plain[i] - smooth[i]) > 250;
+    }
+    EXPECT_GT(changed, 100u) << "its steps are smoothed";
+    EXPECT_LT(changed, plain.size() / 8);
+    EXPECT_EQ(by_much, 0u);
+}
+
+TEST_F(ShadowCatcher, IsNoSurfaceOfAPictureOfVisibility) {
+    make_stage();
+    add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    draw();
+    const std::vector<float> seen = visibility();
+    const Expected truth = expected();
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (truth.catches[i]) {
+            ASSERT_EQ(seen[i], -1.0f);
+        }
+    EXPECT_EQ(judge().metrics.acne + judge().metrics.leak, 0u) << "the judge agrees";
+}
+
+}  // namespace
+}  // namespace gnomon
