@@ -239,16 +239,16 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
     const CasterDesc& desc = caster.desc;
     item.entity = entity_of(id);
     item.gpu_slot = id.index;
-    item.drawable = {static_cast<bool>(caster.draw), caster.motion_since, caster.moved_m};
+    item.drawable = {.drawn = static_cast<bool>(caster.draw), .since = caster.motion_since, .moved_m = caster.moved_m};
     if (item.drawable.drawn) {
         item.mesh = kDrawableMesh;
         item.bounds_ws = {caster.bounds.min_m, caster.bounds.max_m};
         item.translation_ws_m = math::centre(item.bounds_ws);
-        item.by_depth = true;
+        item.drawable.by_depth = true;
     } else {
         item.mesh = *meshes_.find(desc.mesh);
         item.mesh_version = library_.version_of(item.mesh);
-        item.by_depth = library_.meshes[item.mesh].indices.empty();
+        item.drawable.by_depth = library_.meshes[item.mesh].indices.empty();
         item.basis = *drawable_basis(glm::dmat3(desc.world_from_mesh));
         item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
         item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
@@ -314,7 +314,7 @@ void SceneStore::list_instances() {
         caster.moved = caster.marked = false;
     });
     snapshot_.any_by_depth = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
-                                         [](const InstanceItem& item) { return item.by_depth; });
+                                         [](const InstanceItem& item) { return item.drawable.by_depth; });
     snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
                                          [](const InstanceItem& item) { return item.drawable.drawn; });
     snapshot_.gpu_slot_count = casters_.bound();

@@ -73,9 +73,10 @@ struct PoseItem {
     assets::MeshPose pose() const { return {joints, weights}; }
 };
 
-/// Motion of a caster that the engine draws: its mesh has no triangles.
+/// Kind of caster without known triangles, and its motion where the engine draws it.
 struct DrawableMotion {
-    bool drawn = false;       // it is one
+    bool by_depth = false;    // it is one: drawn by the engine, or a mesh in buffers of the engine's
+    bool drawn = false;       // drawn by the engine
     std::uint64_t since = 0;  // grows whenever its movement is unknown
     /// Sum over all versions of the largest movement of a point. The difference between two versions with the same
     /// `since` bounds the movement between them.
@@ -105,7 +106,6 @@ struct InstanceItem {
     bool shadow_catcher = false;  // what is seen of it are the shadows on it
     Winding winding = {};
     DrawableMotion drawable = {};
-    bool by_depth = false;           // no triangles of it are known: a drawable, or a mesh in buffers of the engine's
     std::uint64_t version = 0;       // grows when mesh, place or pose changes, which maps depend on
     std::uint64_t mesh_version = 0;  // assets::MeshLibrary::version_of(mesh): another mesh may take the number
 };
@@ -137,8 +137,8 @@ struct SceneSnapshot {
     std::vector<DroppedEntity> dropped;
     std::vector<std::uint32_t> changed_instances;  // instances to upload in this frame, sorted by gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
-    bool any_drawable = false;                     // InstanceItem::drawable is set for some instance
-    bool any_by_depth = false;                     // InstanceItem::by_depth is
+    bool any_drawable = false;                     // DrawableMotion::drawn is set for some instance
+    bool any_by_depth = false;                     // DrawableMotion::by_depth is set for some instance
     std::uint64_t version = 0;  // grows with every change; by 1 if changed_instances has all instances with a new
                                 // version. 0: changes are not counted, and everything is always new
     /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:

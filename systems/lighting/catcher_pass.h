@@ -18,7 +18,7 @@ public:
     bool provide(bool wanted, glm::uvec2 size_px);
     explicit operator bool() const { return static_cast<bool>(target_); }
 
-    /// Records the start: catchers behind surfaces, whose depth is given, will not be seen.
+    /// Records the start, with the depth of the surfaces: catchers behind them are not seen.
     void begin(gl::TextureHandle surface_depth, gl::CommandList& list) const;
     /// Records the start of the sums, over the depths that the draws since begin() left.
     void begin_sums(gl::CommandList& list) const;

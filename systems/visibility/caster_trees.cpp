@@ -15,7 +15,7 @@ void CasterTrees::list_meshes(const SceneSnapshot& scene) {
     for (const InstanceItem& item : scene.instances) {
         if (!wants(item) || item.mesh >= trees_.size() || trees_[item.mesh].kept) continue;
         // Another mesh may have the number since the snapshot was filled.
-        if (item.by_depth || item.mesh_version != library_->version_of(item.mesh)) continue;
+        if (item.drawable.by_depth || item.mesh_version != library_->version_of(item.mesh)) continue;
         Tree& tree = trees_[item.mesh];
         tree.bvh = rays::MeshBvh(library_->meshes[item.mesh], vertices_of(scene, item.mesh), library_->materials);
         const PoseItem* pose = pose_of(scene, item.mesh);

@@ -79,7 +79,7 @@ TEST_P(EmbedLayersOfKind, EachViewShowsAWorldOfItsOwnCasters) {
 INSTANTIATE_TEST_SUITE_P(All, EmbedLayersOfKind, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                          [](const auto& row) { return std::string(kind_name(row.param)); });
 
-/// Four viewports of one scene, each with its own light, casters, receivers and surfaces.
+/// Shows four viewports of one scene, each with its own light, casters, receivers and surfaces.
 TEST_F(EmbedLayers, FourViewportsShowFourWorldsEachAsIfAlone) {
     constexpr std::size_t kWorlds = 4;
     const game::Shape floor = game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 6.0}, {6.0, 0.0, 0.0});

@@ -1,201 +1,15 @@
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <random>
-#include <utility>
+#include "tests/gl/catcher_fixture.h"
 
-#include "systems/extract/light_facts.h"
-#include "systems/lighting/ambient.h"
-#include "tests/gl/traced_frame_fixture.h"
-
-// Shadow catchers: invisible receivers whose alpha is the share of their light that casters take, pixel by pixel
-// against rays; and the alpha of the picture around them.
+// Shadow catchers against rays, pixel by pixel: their alpha is the share of their light that casters take. The alpha of
+// the picture around them.
 namespace gnomon {
 namespace {
-
-constexpr glm::uvec2 kSize_px{192, 160};
-/// Hard shadows at 1024 px a map: pixels at edges may be a texel off, nothing else.
-constexpr double kMostWrong = 0.02;
-constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};  // Rec. 709
-const LightShadow kHard{.filter = ShadowFilter::hard, .resolution_px = 1024};
-
-double as_light(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-double encoded_of(double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-}
-
-/// Lays a premultiplied picture over an opaque one as docs/how-to/compositing.md says: in light.
-std::vector<std::uint8_t> composed(const std::vector<std::uint8_t>& over, const std::vector<std::uint8_t>& photograph) {
-    std::vector<std::uint8_t> out(photograph.size(), 255);
-    for (std::size_t i = 0; i < out.size(); i += 4)
-        for (std::size_t c = i; c < i + 3; ++c) {
-            const double behind = as_light(photograph[c] / 255.0) * (1.0 - over[i + 3] / 255.0);
-            out[c] = static_cast<std::uint8_t>(std::lround(255.0 * encoded_of(std::min(as_light(over[c] / 255.0) + behind, 1.0))));
-        }
-    return out;
-}
-
-/// Noise over gradients: any level of any channel.
-std::vector<std::uint8_t> like_a_photograph(glm::uvec2 size_px) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> noise(-40.0, 40.0);
-    std::vector<std::uint8_t> rgba;
-    for (std::uint32_t y = 0; y < size_px.y; ++y)
-        for (std::uint32_t x = 0; x < size_px.x; ++x) {
-            const double along[] = {double(x) / size_px.x, double(y) / size_px.y, 1.0 - double(x) / size_px.x};
-            for (const double share : along)
-                rgba.push_back(static_cast<std::uint8_t>(std::clamp(255.0 * share + noise(random), 0.0, 255.0)));
-            rgba.push_back(255);
-        }
-    return rgba;
-}
-
-class ShadowCatcher : public TracedFrameTest {
-protected:
-    void SetUp() override {
-        TracedFrameTest::SetUp();
-        settings.viewport_px = kSize_px;
-        settings.transparent = true;
-        settings.rays = false;
-    }
-    ecs::Entity catcher(std::uint32_t mesh, const Transform& at = {}, bool casts = false) {
-        const ecs::Entity entity = place(mesh, at, casts);
-        world.patch<MeshRef>(entity, [](MeshRef& m) { m.shadow_catcher = true; });
-        return entity;
-    }
-    std::uint32_t ground_mesh(std::optional<std::uint32_t> material = {}) {
-        return add_mesh(game::make_card(glm::dvec3(0.0), {0.0, 0.0, 8.0}, {8.0, 0.0, 0.0}), material);
-    }
-    std::uint32_t box_mesh() { return add_analysed(game::make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})); }
-    void look(const glm::dvec3& from_m = {0.0, 6.0, 5.0}) { add_camera({.fov_y_rad = 1.0}, from_m, -from_m); }
-    /// A catching ground, a box above it, a camera.
-    void make_stage() {
-        ground = catcher(ground_mesh());
-        box = place(box_mesh(), {.translation_m = {0.3, 1.0, 0.2}});
-        look();
-    }
-    /// Two lamps of other colours and places, one without a shadow of the box on half of the ground.
-    void add_coloured_lights() {
-        add_light({.kind = LightKind::point, .colour = {1.0f, 0.2f, 0.1f}, .intensity = 900.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
-        add_light({.kind = LightKind::directional, .colour = {0.1f, 0.3f, 1.0f}, .intensity = 40.0f}, {}, {-1.0, -2.0, -0.5}, kHard);
-    }
-
-    /// Light on a surface, lux per channel, without casters. 0 where it faces away, or is out of reach.
-    static glm::dvec3 irradiance(const LightItem& light, const glm::dvec3& at_ws_m, const glm::dvec3& normal) {
-        const bool parallel = light_facts(light.kind).parallel;
-        const glm::dvec3 way = parallel ? light.rotation_ws[2] : light.position_ws_m - at_ws_m;
-        const double distance_m = parallel ? 1.0 : glm::length(way);
-        const double cosine = glm::dot(normal, way) / glm::length(way);
-        double strength = static_cast<double>(light.intensity) / (distance_m * distance_m);
-        if (light.kind == LightKind::spot) {
-            const double inner = std::cos(light.inner_cone_rad), outer = std::cos(light.outer_cone_rad);
-            const double share = glm::clamp((glm::dot(way, light.rotation_ws[2]) / distance_m - outer) / (inner - outer), 0.0, 1.0);
-            strength *= share * share;
-        }
-        return glm::dvec3(light.colour) * (strength * std::max(cosine, 0.0));
-    }
-
-    struct Expected {
-        std::vector<double> alpha;         // bottom row first; 0: no surface
-        std::vector<std::uint8_t> scored;  // the answer is certain
-        std::vector<std::uint8_t> catches, opaque;
-    };
-    /// What rays say of the picture's alpha: catchers count as surfaces, and casters take light of them.
-    Expected expected() {
-        SceneSnapshot scene = frame().snapshot();
-        std::vector<std::uint8_t> is_catcher;
-        for (InstanceItem& item : scene.instances) is_catcher.push_back(std::exchange(item.shadow_catcher, false));
-        const ConsumerItem& camera = scene.consumers.front();
-        const oracle::ReferenceTracer tracer(scene, library, camera.position_ws_m);
-        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
-        std::vector<oracle::LightTruth> truths;
-        for (const LightItem& light : scene.lights) truths.push_back(tracer.trace_light(hits, light, true));
-        lighting::MidstFinder finder;
-        const lighting::AmbientRecord ambient = lighting::ambient_for(lighting::scene_light(frame().snapshot(), finder.find(frame().snapshot())));
-        Expected e;
-        for (std::size_t i = 0; i < hits.count(); ++i) {
-            const oracle::PlacedTriangle seen = hits.triangle[i] == oracle::kNoTriangle ? oracle::PlacedTriangle{} : tracer.source_of(hits.triangle[i]);
-            const bool catches = seen.exists() && is_catcher[seen.instance] != 0;
-            e.catches.push_back(catches);
-            e.opaque.push_back(seen.exists() && !catches);
-            e.scored.push_back(1);
-            e.alpha.push_back(seen.exists() && !catches ? 1.0 : 0.0);
-            if (!catches) continue;
-            const glm::dvec3& normal = hits.normal_ws[i];
-            const glm::dvec3 at_ws_m = hits.position_rel_m[i] + camera.position_ws_m;
-            double falls = glm::dot(kLuminance, glm::mix(glm::dvec3(ambient.ground_lux), glm::dvec3(ambient.sky_lux), 0.5 + 0.5 * normal.y));
-            double taken = 0.0;
-            for (std::size_t l = 0; l < truths.size(); ++l) {
-                const double of_light = glm::dot(kLuminance, irradiance(scene.lights[l], at_ws_m, normal));
-                falls += of_light;
-                taken += of_light * (1.0 - static_cast<double>(truths[l].visibility[i]));
-                if (truths[l].ambiguous[i]) e.scored.back() = 0;
-            }
-            if (falls > 0.0) e.alpha.back() = taken / falls;
-        }
-        return e;
-    }
-
-    /// Alpha of the picture, bottom row first as the tracer has it.
-    std::vector<int> alphas() {
-        const std::vector<std::uint8_t> rgba = picture();
-        std::vector<int> out;
-        for (std::uint32_t y = 0; y < settings.viewport_px.y; ++y)
-            for (std::uint32_t x = 0; x < settings.viewport_px.x; ++x)
-                out.push_back(rgba[((settings.viewport_px.y - 1 - y) * settings.viewport_px.x + x) * 4 + 3]);
-        return out;
-    }
-    struct Compared {
-        std::size_t catches = 0, dark = 0, wrong = 0, wrong_elsewhere = 0, coloured = 0;
-        std::string text() const {
-            return std::to_string(catches) + " pixels of catchers, " + std::to_string(dark) + " darkened, " + std::to_string(wrong) +
-                   " wrong, elsewhere " + std::to_string(wrong_elsewhere);
-        }
-    };
-    /// Compares with rays, to 1/255 beyond rounding.
-    Compared compared() { return compared(expected()); }
-    Compared compared(const Expected& truth) {
-        const std::vector<int> drawn = alphas();
-        const std::vector<std::uint8_t> rgba = picture();
-        Compared c;
-        for (std::size_t i = 0; i < drawn.size(); ++i) {
-            const bool is_wrong = std::abs(drawn[i] - 255.0 * truth.alpha[i]) > 1.5;
-            if (!truth.catches[i]) {
-                c.wrong_elsewhere += is_wrong;
-                continue;
-            }
-            const std::size_t x = i % settings.viewport_px.x, y = settings.viewport_px.y - 1 - i / settings.viewport_px.x;
-            for (std::size_t k = 0; k < 3; ++k) c.coloured += rgba[(y * settings.viewport_px.x + x) * 4 + k] != 0;
-            if (!truth.scored[i]) continue;
-            ++c.catches;
-            c.dark += truth.alpha[i] > 0.02;
-            c.wrong += is_wrong;
-        }
-        return c;
-    }
-    void expect_rays(std::size_t least_dark, const char* what = "") {
-        const Compared c = compared();
-        EXPECT_GT(c.catches, 3000u) << what << ": " << c.text();
-        EXPECT_GT(c.dark, least_dark) << what << ": " << c.text();
-        EXPECT_LT(static_cast<double>(c.wrong), kMostWrong * static_cast<double>(c.catches)) << what << ": " << c.text();
-        EXPECT_LT(c.wrong_elsewhere, 60u) << what << ": " << c.text() << ": the rim of surfaces";
-    }
-    /// Draws the same without what stands on the ground.
-    void take_caster_away() {
-        world.destroy(box);
-        draw();
-    }
-
-    ecs::Entity ground, box;
-};
 
 class ShadowCatcherOfKind : public ShadowCatcher, public ::testing::WithParamInterface<LightKind> {};
 
 TEST_P(ShadowCatcherOfKind, HasTheShareThatCastersTakeAsAlphaAndNoColour) {
     make_stage();
-    add_light({.kind = GetParam(), .intensity = 800.0f, .outer_cone_rad = 0.9f}, {-2.0, 5.0, 1.0}, {2.0, -5.0, -1.0}, kHard);
+    add_light({.kind = GetParam(), .intensity = 800.0f, .outer_cone_rad = 0.9f}, {-2.0, 5.0, 1.0}, {2.0, -5.0, -1.0}, kHardMap);
     draw();
     expect_rays(300);
     const Compared c = compared();
@@ -215,11 +29,11 @@ TEST_F(ShadowCatcher, LaysNothingOverAPhotographWhereNothingCasts) {
     make_stage();
     add_coloured_lights();
     draw();
-    const std::vector<std::uint8_t> photograph = like_a_photograph(kSize_px), over = composed(picture(), photograph);
+    const std::vector<std::uint8_t> photograph = like_a_photograph(kCatcher_px), over = composed(picture(), photograph);
     const Expected truth = expected();
     std::size_t lit = 0, darker = 0, wrong = 0;
     for (std::size_t i = 0; i < truth.alpha.size(); ++i) {
-        const std::size_t at = ((kSize_px.y - 1 - i / kSize_px.x) * kSize_px.x + i % kSize_px.x) * 4;
+        const std::size_t at = ((kCatcher_px.y - 1 - i / kCatcher_px.x) * kCatcher_px.x + i % kCatcher_px.x) * 4;
         if (truth.opaque[i] || !truth.scored[i]) continue;
         for (std::size_t c = at; c < at + 3; ++c) {
             const double shown = 255.0 * encoded_of(as_light(photograph[c] / 255.0) * (1.0 - truth.alpha[i]));
@@ -230,14 +44,14 @@ TEST_F(ShadowCatcher, LaysNothingOverAPhotographWhereNothingCasts) {
     }
     EXPECT_GT(lit, 30000u);
     EXPECT_GT(darker, 3000u);
-    EXPECT_LT(static_cast<double>(wrong), kMostWrong * 3.0 * kSize_px.x * kSize_px.y);
+    EXPECT_LT(static_cast<double>(wrong), kMostWrongShares * 3.0 * kCatcher_px.x * kCatcher_px.y);
     take_caster_away();
     EXPECT_EQ(composed(picture(), photograph), photograph) << "to the bit";
 }
 
-/// A photograph of the very ground: the composite is the lit scene itself.
+/// Takes a photograph of the very ground: the composite is the lit scene itself.
 TEST_F(ShadowCatcher, CompositeEqualsTheLitSceneToTheLastStep) {
-    assets::Texture grain{.name = "grain", .width = kSize_px.x, .height = kSize_px.y, .rgba = like_a_photograph(kSize_px)};
+    assets::Texture grain{.name = "grain", .width = kCatcher_px.x, .height = kCatcher_px.y, .rgba = like_a_photograph(kCatcher_px)};
     library.textures.push_back(grain);
     const std::uint32_t real = add_material({.name = "real", .base_colour = glm::vec4(0.6f, 0.6f, 0.6f, 1.0f), .base_colour_texture = 0, .metallic = 0.0f, .roughness = 1.0f});
     const std::uint32_t mesh = ground_mesh(real);
@@ -245,7 +59,7 @@ TEST_F(ShadowCatcher, CompositeEqualsTheLitSceneToTheLastStep) {
     box = place(box_mesh(), {.translation_m = {0.3, 1.0, 0.2}});
     look();
     for (const double side : {-1.0, 1.0})
-        add_light({.kind = LightKind::directional, .intensity = 300.0f}, {}, {side, -1.5, -0.3 * side}, kHard);
+        add_light({.kind = LightKind::directional, .intensity = 300.0f}, {}, {side, -1.5, -0.3 * side}, kHardMap);
     settings.transparent = false;
     settings.exposure_ev = 10.0f;  // dark, where the tone curve is nearly straight
     draw();
@@ -312,7 +126,7 @@ TEST_F(ShadowCatcher, ShowsOnlyTheFacesThatItsMaterialHas) {
     const std::uint32_t mesh = ground_mesh(), two_sided = ground_mesh(both);
     ground = catcher(mesh);
     box = place(box_mesh(), {.translation_m = {0.3, -1.0, 0.2}});
-    add_light({.kind = LightKind::point, .intensity = 900.0f}, {-1.0, -4.0, 1.0}, {0.0, 1.0, 0.0}, kHard);
+    add_light({.kind = LightKind::point, .intensity = 900.0f}, {-1.0, -4.0, 1.0}, {0.0, 1.0, 0.0}, kHardMap);
     look({0.0, -6.0, 5.0});
     draw();
     for (const int alpha : alphas()) ASSERT_TRUE(alpha == 0 || alpha == 255) << "from behind there is no catcher";
@@ -331,20 +145,20 @@ TEST_F(ShadowCatcher, HasHolesWhereItsMaterialIsCutOut) {
     const std::uint32_t cut = add_material({.name = "cut", .base_colour_texture = 0, .metallic = 0.0f, .alpha_mode = assets::AlphaMode::mask});
     ground = catcher(ground_mesh(cut));
     box = place(box_mesh(), {.translation_m = {0.0, 1.0, 0.0}});
-    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.2, -1.0, -0.2}, kHard);
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.2, -1.0, -0.2}, kHardMap);
     look();
     draw();
     const Compared c = compared();
     EXPECT_GT(c.dark, 100u) << c.text();
-    EXPECT_LT(static_cast<double>(c.wrong), kMostWrong * static_cast<double>(c.catches)) << c.text();
+    EXPECT_LT(static_cast<double>(c.wrong), kMostWrongShares * static_cast<double>(c.catches)) << c.text();
     EXPECT_LT(c.wrong_elsewhere, 60u) << c.text();
-    EXPECT_LT(c.catches, kSize_px.x * kSize_px.y / 2u) << "control: the other half is a hole";
+    EXPECT_LT(c.catches, kCatcher_px.x * kCatcher_px.y / 2u) << "control: the other half is a hole";
 }
 
 TEST_F(ShadowCatcher, CastsIfItIsACasterAsWell) {
     ground = catcher(ground_mesh());
     box = catcher(box_mesh(), {.translation_m = {0.3, 0.9, 0.2}}, true);
-    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHard);
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHardMap);
     look();
     draw();
     expect_rays(300);
@@ -363,7 +177,7 @@ TEST_F(ShadowCatcher, TakesNothingWithoutLight) {
         if (truth.catches[i]) {
             ASSERT_EQ(drawn[i], 0) << "no light at all";
         }
-    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 0.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 0.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHardMap);
     draw();
     EXPECT_EQ(alphas(), drawn) << "a lamp that is off";
     world.patch<Light>(lamp, [](Light& l) { l.intensity = 800.0f; });
@@ -373,7 +187,7 @@ TEST_F(ShadowCatcher, TakesNothingWithoutLight) {
 
 TEST_F(ShadowCatcher, OfOtherLayersOrNoReceiverCatchesNothing) {
     make_stage();
-    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHardMap);
     const auto caught = [&] {
         draw();
         const std::vector<int> all = alphas();
@@ -412,7 +226,7 @@ TEST_F(ShadowCatcher, IsExactWithRays) {
 
 TEST_F(ShadowCatcher, DarkensWhatIsBehindItInAnOpaquePicture) {
     make_stage();
-    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    const ecs::Entity lamp = add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHardMap);
     settings.transparent = false;
     draw();
     const std::vector<std::uint8_t> caught = picture();
@@ -437,7 +251,7 @@ TEST_F(ShadowCatcher, DarkensWhatIsBehindItInAnOpaquePicture) {
 
 TEST_F(ShadowCatcher, AlphaHasTheSamplesOfAStillPicture) {
     make_stage();
-    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHard);
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHardMap);
     draw();
     std::vector<int> one = alphas();
     std::sort(one.begin(), one.end());
@@ -461,7 +275,7 @@ TEST_F(ShadowCatcher, AlphaHasTheSamplesOfAStillPicture) {
 
 TEST_F(ShadowCatcher, SmoothedEdgesKeepAlpha) {
     make_stage();
-    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHard);
+    add_light({.kind = LightKind::directional, .intensity = 500.0f}, {}, {0.6, -1.0, -0.5}, kHardMap);
     draw();
     const std::vector<int> plain = alphas();
     settings.smooth_edges = true;
@@ -479,7 +293,7 @@ TEST_F(ShadowCatcher, SmoothedEdgesKeepAlpha) {
 
 TEST_F(ShadowCatcher, IsNoSurfaceOfAPictureOfVisibility) {
     make_stage();
-    add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHard);
+    add_light({.kind = LightKind::point, .intensity = 800.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHardMap);
     draw();
     const std::vector<float> seen = visibility();
     const Expected truth = expected();

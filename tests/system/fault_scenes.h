@@ -21,7 +21,7 @@ FaultScene box_scene();
 /// The same with lights that ask by rays: of a point, with a size, and one that has no map.
 FaultScene exact_scene();
 
-/// A plane that catches shadows of a box, by a sun and a point.
+/// Makes a plane that catches shadows of a box, by a sun and a point.
 FaultScene catcher_scene();
 
 /// The built-in scene as the game loads it: sun, guard lamp and lantern with their shadows, all that moves moving.

@@ -1,5 +1,5 @@
-// Light on a shadow catcher, as luminance: red has what casters take of it, green what falls without casters. Both are
-// illuminances, lux times ambient.sky.w.
+// Returns sums of light on a shadow catcher, luminance in lux times ambient.sky.w. Red: what casters take. Green: what
+// falls without casters.
 vec4 caught_sum(float taken, float falls) { return vec4(taken, falls, 0.0, 0.0); }
 
 // Returns the luminance of a linear colour (Rec. 709).

@@ -54,8 +54,8 @@ TEST_F(SceneStoreTest, AChangedBoxChangesItsCastersAlone) {
     const SceneSnapshot& scene = updated();
     ASSERT_EQ(scene.instances.size(), 3u);
     EXPECT_TRUE(scene.any_by_depth);
-    EXPECT_FALSE(scene.instances[0].by_depth);
-    EXPECT_TRUE(scene.instances[1].by_depth && scene.instances[2].by_depth);
+    EXPECT_FALSE(scene.instances[0].drawable.by_depth);
+    EXPECT_TRUE(scene.instances[1].drawable.by_depth && scene.instances[2].drawable.by_depth);
     const std::uint64_t stays = scene.instances[0].version, mesh_version = scene.instances[1].mesh_version;
     store.change_box(box, {{0.0, 0.0, 0.0}, {2.0, 1.0, 1.0}});
     EXPECT_EQ(updated().changed_instances.size(), 2u);
