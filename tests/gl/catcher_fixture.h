@@ -28,12 +28,14 @@ inline double encoded_of(double light) {
 }
 
 /// Lays a premultiplied picture over an opaque one as docs/how-to/compositing.md has it: in light.
-inline std::vector<std::uint8_t> composed(const std::vector<std::uint8_t>& over, const std::vector<std::uint8_t>& photograph) {
+inline std::vector<std::uint8_t> composed(const std::vector<std::uint8_t>& over,
+                                          const std::vector<std::uint8_t>& photograph) {
     std::vector<std::uint8_t> out(photograph.size(), 255);
     for (std::size_t i = 0; i < out.size(); i += 4)
         for (std::size_t c = i; c < i + 3; ++c) {
             const double behind = as_light(photograph[c] / 255.0) * (1.0 - over[i + 3] / 255.0);
-            out[c] = static_cast<std::uint8_t>(std::lround(255.0 * encoded_of(std::min(as_light(over[c] / 255.0) + behind, 1.0))));
+            out[c] = static_cast<std::uint8_t>(
+                std::lround(255.0 * encoded_of(std::min(as_light(over[c] / 255.0) + behind, 1.0))));
         }
     return out;
 }
@@ -80,8 +82,10 @@ protected:
     }
     /// Adds a lamp and a sun of other colours, with shadows that overlap in part.
     void add_coloured_lights() {
-        add_light({.kind = LightKind::point, .colour = {1.0f, 0.2f, 0.1f}, .intensity = 900.0f}, {-2.0, 4.0, 1.0}, {0.0, -1.0, 0.0}, kHardMap);
-        add_light({.kind = LightKind::directional, .colour = {0.1f, 0.3f, 1.0f}, .intensity = 40.0f}, {}, {-1.0, -2.0, -0.5}, kHardMap);
+        add_light({.kind = LightKind::point, .colour = {1.0f, 0.2f, 0.1f}, .intensity = 900.0f}, {-2.0, 4.0, 1.0},
+                  {0.0, -1.0, 0.0}, kHardMap);
+        add_light({.kind = LightKind::directional, .colour = {0.1f, 0.3f, 1.0f}, .intensity = 40.0f}, {},
+                  {-1.0, -2.0, -0.5}, kHardMap);
     }
 
     /// Returns the light on a surface without casters, lux per channel. 0: it faces away, or is out of the cone.
@@ -93,7 +97,8 @@ protected:
         double strength = static_cast<double>(light.intensity) / (distance_m * distance_m);
         if (light.kind == LightKind::spot) {
             const double inner = std::cos(light.inner_cone_rad), outer = std::cos(light.outer_cone_rad);
-            const double share = glm::clamp((glm::dot(way, light.rotation_ws[2]) / distance_m - outer) / (inner - outer), 0.0, 1.0);
+            const double share =
+                glm::clamp((glm::dot(way, light.rotation_ws[2]) / distance_m - outer) / (inner - outer), 0.0, 1.0);
             strength *= share * share;
         }
         return glm::dvec3(light.colour) * (strength * std::max(cosine, 0.0));
@@ -115,10 +120,12 @@ protected:
         std::vector<oracle::LightTruth> truths;
         for (const LightItem& light : scene.lights) truths.push_back(tracer.trace_light(hits, light, true));
         lighting::MidstFinder finder;
-        const lighting::AmbientRecord ambient = lighting::ambient_for(lighting::scene_light(frame().snapshot(), finder.find(frame().snapshot())));
+        const lighting::AmbientRecord ambient =
+            lighting::ambient_for(lighting::scene_light(frame().snapshot(), finder.find(frame().snapshot())));
         Expected e;
         for (std::size_t i = 0; i < hits.count(); ++i) {
-            const oracle::PlacedTriangle seen = hits.triangle[i] == oracle::kNoTriangle ? oracle::PlacedTriangle{} : tracer.source_of(hits.triangle[i]);
+            const oracle::PlacedTriangle seen =
+                hits.triangle[i] == oracle::kNoTriangle ? oracle::PlacedTriangle{} : tracer.source_of(hits.triangle[i]);
             const bool catches = seen.exists() && is_catcher[seen.instance] != 0;
             e.catches.push_back(catches);
             e.opaque.push_back(seen.exists() && !catches);
@@ -127,7 +134,8 @@ protected:
             if (!catches) continue;
             const glm::dvec3& normal = hits.normal_ws[i];
             const glm::dvec3 at_ws_m = hits.position_rel_m[i] + camera.position_ws_m;
-            double falls = glm::dot(kLuminance, glm::mix(glm::dvec3(ambient.ground_lux), glm::dvec3(ambient.sky_lux), 0.5 + 0.5 * normal.y));
+            double falls = glm::dot(kLuminance, glm::mix(glm::dvec3(ambient.ground_lux), glm::dvec3(ambient.sky_lux),
+                                                         0.5 + 0.5 * normal.y));
             double taken = 0.0;
             for (std::size_t l = 0; l < truths.size(); ++l) {
                 const double of_light = glm::dot(kLuminance, irradiance(scene.lights[l], at_ws_m, normal));
@@ -152,8 +160,8 @@ protected:
     struct Compared {
         std::size_t catches = 0, dark = 0, wrong = 0, wrong_elsewhere = 0, coloured = 0;
         std::string text() const {
-            return std::to_string(catches) + " pixels of catchers, " + std::to_string(dark) + " darkened, " + std::to_string(wrong) +
-                   " wrong, elsewhere " + std::to_string(wrong_elsewhere);
+            return std::to_string(catches) + " pixels of catchers, " + std::to_string(dark) + " darkened, " +
+                   std::to_string(wrong) + " wrong, elsewhere " + std::to_string(wrong_elsewhere);
         }
     };
     /// Compares with rays, to 1/255 beyond rounding.
@@ -168,7 +176,8 @@ protected:
                 c.wrong_elsewhere += is_wrong;
                 continue;
             }
-            const std::size_t x = i % settings.viewport_px.x, y = settings.viewport_px.y - 1 - i / settings.viewport_px.x;
+            const std::size_t x = i % settings.viewport_px.x,
+                              y = settings.viewport_px.y - 1 - i / settings.viewport_px.x;
             for (std::size_t k = 0; k < 3; ++k) c.coloured += rgba[(y * settings.viewport_px.x + x) * 4 + k] != 0;
             if (!truth.scored[i]) continue;
             ++c.catches;
@@ -181,7 +190,8 @@ protected:
         const Compared c = compared();
         EXPECT_GT(c.catches, 3000u) << what << ": " << c.text();
         EXPECT_GT(c.dark, least_dark) << what << ": " << c.text();
-        EXPECT_LT(static_cast<double>(c.wrong), kMostWrongShares * static_cast<double>(c.catches)) << what << ": " << c.text();
+        EXPECT_LT(static_cast<double>(c.wrong), kMostWrongShares * static_cast<double>(c.catches))
+            << what << ": " << c.text();
         EXPECT_LT(c.wrong_elsewhere, 60u) << what << ": " << c.text() << ": the rim of surfaces";
     }
     /// Draws the same without what stands on the ground.

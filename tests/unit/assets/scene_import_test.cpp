@@ -205,7 +205,7 @@ TEST(SceneImport, ReadsCameras) {
 
 TEST(SceneImport, ReadsTheProjectsExtras) {
     GltfBuilder builder;
-    builder.push("nodes", {{"extras", {{"castShadow", false}, {"receiveShadow", false}, {"visible", false}}}});
+    builder.push("nodes", {{"extras", {{"castShadow", false}, {"receiveShadow", false}, {"visible", false}, {"shadowCatcher", true}}}});
     builder.push(
         "nodes",
         {{"extras",
@@ -215,6 +215,7 @@ TEST(SceneImport, ReadsTheProjectsExtras) {
     EXPECT_FALSE(scene.nodes.at(0).casts_shadow);
     EXPECT_FALSE(scene.nodes[0].receives_shadow);
     EXPECT_FALSE(scene.nodes[0].visible);
+    EXPECT_TRUE(scene.nodes[0].shadow_catcher);
     EXPECT_EQ(scene.nodes[0].motion.kind, "");
     EXPECT_TRUE(scene.nodes.at(1).casts_shadow);
     EXPECT_EQ(scene.nodes[1].motion.kind, "swing");

@@ -113,6 +113,7 @@ TEST_F(ExtractTest, EveryChangeOfAnInstanceIsSeen) {
         [&] { world.registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.layers = 0x02; }); },
         [&] { world.registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_layers = 0x04; }); },
         [&] { world.registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.visible = false; }); },
+        [&] { world.registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_catcher = true; }); },
         [&] { world.registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.mesh = kMaskedBox; }); },
         [&] { world.registry.patch<Transform>(stage.box, [](Transform& t) { t.scale.x = -1.0; }); },
     };
@@ -123,6 +124,7 @@ TEST_F(ExtractTest, EveryChangeOfAnInstanceIsSeen) {
         EXPECT_GT(snapshot.version, version) << i;
     }
     EXPECT_FALSE(item(stage.box).casts || item(stage.box).receives || item(stage.box).visible);
+    EXPECT_TRUE(item(stage.box).shadow_catcher);
     EXPECT_EQ(item(stage.box).cast_layers, 0x02);
     EXPECT_EQ(item(stage.box).receive_layers, 0x04);
     EXPECT_EQ(item(stage.box).mesh, kMaskedBox);
@@ -141,6 +143,7 @@ TEST_F(ExtractTest, OnlyWhatMapsShowAgesAnInstanceAndOnlyWhatItsRecordHoldsIsUpl
         {[&] { registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.enabled = false; }); }, false, true},
         {[&] { registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.layers = 0x02; }); }, false, true},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.visible = false; }); }, false, false},
+        {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_catcher = true; }); }, false, false},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_layers = 0x04; }); }, false, true},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.receives_shadow = false; }); }, false, true},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.mesh = kMaskedBox; }); }, true, true},

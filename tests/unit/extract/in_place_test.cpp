@@ -54,7 +54,8 @@ protected:
             EXPECT_TRUE(now.entity == then.entity && now.mesh == then.mesh && now.basis == then.basis &&
                         now.translation_ws_m == then.translation_ws_m && now.casts == then.casts &&
                         now.receives == then.receives && now.cast_layers == then.cast_layers &&
-                        now.receive_layers == then.receive_layers && now.visible == then.visible)
+                        now.receive_layers == then.receive_layers && now.visible == then.visible &&
+                        now.shadow_catcher == then.shadow_catcher)
                 << what << ": instance " << i;
         }
         ASSERT_EQ(snapshot.dropped.size(), fresh.dropped.size()) << what;
@@ -237,6 +238,7 @@ TEST_F(InPlace, WhatInstancesShowAndCastIsWrittenWithoutMakingListsAnew) {
         {"a caster", [&] { r.emplace<ShadowCaster>(stage.box); }},
         {"layers", [&] { r.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_layers = 2; }); }},
         {"hidden", [&] { r.patch<MeshRef>(stage.box, [](MeshRef& m) { m.visible = false; }); }},
+        {"catching", [&] { r.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_catcher = true; }); }},
     };
     for (const Edit& edit : marks) {
         edit.run();

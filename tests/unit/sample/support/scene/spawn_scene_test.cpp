@@ -56,12 +56,15 @@ TEST(Spawn, AMeshCastsAndReceivesUnlessItsNodeSaysOtherwise) {
     assets::SceneData data = one_box();
     data.nodes.push_back(data.nodes[0]);
     data.nodes[1].casts_shadow = data.nodes[1].receives_shadow = data.nodes[1].visible = false;
+    data.nodes[1].shadow_catcher = true;
     const Spawned s(std::move(data));
     EXPECT_TRUE(s.registry.has<ShadowCaster>(s.scene.nodes[0]));
     EXPECT_TRUE(s.registry.get<MeshRef>(s.scene.nodes[0])->receives_shadow);
     EXPECT_FALSE(s.registry.has<ShadowCaster>(s.scene.nodes[1]));
     EXPECT_FALSE(s.registry.get<MeshRef>(s.scene.nodes[1])->receives_shadow);
     EXPECT_FALSE(s.registry.get<MeshRef>(s.scene.nodes[1])->visible);
+    EXPECT_TRUE(s.registry.get<MeshRef>(s.scene.nodes[1])->shadow_catcher);
+    EXPECT_FALSE(s.registry.get<MeshRef>(s.scene.nodes[0])->shadow_catcher);
     EXPECT_EQ(s.library.meshes.size(), 1u);
 }
 
