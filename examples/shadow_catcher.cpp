@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
 
     const GLuint photograph = make_program(kEveryPixel, kPhotograph), surfaces = make_program(kVertex, kFragment);
     const glm::vec4 lights[] = {{kToSun, 0.0}, {kLamp_m, 1.0}};
-    const glm::vec3 colours[] = {glm::vec3(0.7f), {6.0f, 4.0f, 2.0f}};
+    const glm::vec3 colours[] = {glm::vec3(0.7f), {30.0f, 20.0f, 10.0f}};
     glProgramUniform3fv(surfaces, 1, 12, &kPositions[0].x);
     glProgramUniform1uiv(surfaces, 13, kAll, kIndices);
     glProgramUniform4fv(surfaces, 61, 2, &lights[0].x);

@@ -29,7 +29,12 @@ protected:
         return of_catchers;
     }
     std::string target_of(const Pass& pass) const { return device.target(pass.begin.target)->label; }
-    std::vector<std::string> owned() const { return map_labels(device, "caught light"); }
+    /// Returns labels of textures and targets; programs stay until the end.
+    std::vector<std::string> owned() const {
+        std::vector<std::string> labels = map_labels(device, "caught light");
+        std::erase_if(labels, [](const std::string& label) { return label.find(".glsl") != std::string::npos; });
+        return labels;
+    }
     std::size_t drawn_surfaces() const {
         for (const Pass& pass : passes())
             if (pass.group == "surfaces") return pass.draws.size();

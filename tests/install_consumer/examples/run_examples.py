@@ -25,6 +25,7 @@ PICTURES = {
     "first_shadow": ((0.005, 0.1), (0.39, 0.50), (0.20, 0.70)),
     "own_ecs_forward": ((0.02, 0.6), (0.50, 0.50), (0.50, 0.80)),
     "deferred_mask": ((0.02, 0.5), (0.42, 0.825), (0.10, 0.65)),
+    "shadow_catcher": ((0.005, 0.3), (0.39, 0.50), (0.20, 0.70)),
     "streaming": ((0.02, 0.6), None, None),
     "split_screen": ((0.02, 0.6), None, None),
     "wind_foliage": ((0.02, 0.5), None, None),
