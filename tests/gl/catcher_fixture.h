@@ -110,7 +110,8 @@ protected:
         std::vector<std::uint8_t> catches, opaque;
     };
     /// Computes the picture's alpha by rays. Catchers are surfaces to them, and casters take light from these.
-    Expected expected() {
+    /// `weights`: of the channels.
+    Expected expected(const glm::dvec3& weights = kLuminance) {
         SceneSnapshot scene = frame().snapshot();
         std::vector<std::uint8_t> is_catcher;
         for (InstanceItem& item : scene.instances) is_catcher.push_back(std::exchange(item.shadow_catcher, false));
@@ -134,11 +135,11 @@ protected:
             if (!catches) continue;
             const glm::dvec3& normal = hits.normal_ws[i];
             const glm::dvec3 at_ws_m = hits.position_rel_m[i] + camera.position_ws_m;
-            double falls = glm::dot(kLuminance, glm::mix(glm::dvec3(ambient.ground_lux), glm::dvec3(ambient.sky_lux),
+            double falls = glm::dot(weights, glm::mix(glm::dvec3(ambient.ground_lux), glm::dvec3(ambient.sky_lux),
                                                          0.5 + 0.5 * normal.y));
             double taken = 0.0;
             for (std::size_t l = 0; l < truths.size(); ++l) {
-                const double of_light = glm::dot(kLuminance, irradiance(scene.lights[l], at_ws_m, normal));
+                const double of_light = glm::dot(weights, irradiance(scene.lights[l], at_ws_m, normal));
                 falls += of_light;
                 taken += of_light * (1.0 - static_cast<double>(truths[l].visibility[i]));
                 if (truths[l].ambiguous[i]) e.scored.back() = 0;

@@ -128,15 +128,17 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             add(lighting.unlit_surface(false));
             add(lighting.unlit_surface(true));
             add(lighting.unlit_blended());
+            add(lighting.catcher_base());
         }
         lighting.set_coloured(false);
         add(lighting.luminance());
-        add(lighting.tonemap());
+        add(lighting.catcher_shares());
+        for (const bool transparent : {false, true}) add(lighting.tonemap(transparent));
         // Rows with sheets share programs.
         std::set<std::uint32_t> shared;
         for (const shadow::ShaderKey& row : all_rows()) {
             using enum lighting::ShaderPass;
-            for (const auto output : {picture, visibility, blended, verdicts, rays}) {
+            for (const auto output : {picture, visibility, blended, catcher, verdicts, rays}) {
                 if (!row.sheets && (output == verdicts || output == rays)) continue;
                 const gl::ProgramHandle program = lighting.row(row, output);
                 if (!row.sheets || shared.insert(program.id).second) add(program);
