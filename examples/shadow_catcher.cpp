@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
 
 namespace {
 
