@@ -25,12 +25,13 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_triangles));
     constexpr std::size_t kMaskedOrNot = 2;
     // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an
-    // output; blended surfaces, verdicts and rays have their own, masked or not.
+    // output; blended surfaces, catchers, verdicts and rays have their own, masked or not.
     const std::size_t by_rays = (kinds + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters);
-    const std::size_t with_sheets = 2 * kinds + 3 * by_rays;
-    constexpr std::size_t kOutputs = 3, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
-    // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not; luminance and tone curve.
-    constexpr std::size_t kCommon = 3 * 2 * 2 + 2;
+    const std::size_t with_sheets = 2 * kinds + 4 * by_rays;
+    constexpr std::size_t kOutputs = 4, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
+    // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not; catchers, coloured or not, and
+    // their shares; luminance, and tone curve with a background or without.
+    constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3;
     // Those by a pixel's footprint, too, and those of masked casters.
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays;
     std::size_t views_programs = 1;  // lines
