@@ -19,6 +19,7 @@ namespace gnomon::lighting {
 /// - decided, decided_visibility: picture and visibility without pixels that take the row's filter long
 /// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of the
 ///   others, and of the areas that an edge crosses
+/// - found_middles: for EdgePass, visibility at the middles of all pixels, by rays
 enum class ShaderPass : std::uint8_t {
     picture,
     visibility,
@@ -32,7 +33,8 @@ enum class ShaderPass : std::uint8_t {
     decided_visibility,
     decided_middles,
     undecided_middles,
-    crossed_areas
+    crossed_areas,
+    found_middles
 };
 
 /// Returns the row for a light without lookup: one per kind.

@@ -212,7 +212,8 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
                    .kind_file = kind_file(request.projection, kind),
                    .filter_file = filter_row(request.map.filter).file,
                    .rays = true,
-                   .ray_masks = static_cast<bool>(in.rays.masks)};
+                   .ray_masks = static_cast<bool>(in.rays.masks),
+                   .antialias = filter_row(request.map.filter).area_shares && light.shadow.antialias};
         out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
@@ -247,7 +248,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     out.plain.accuracy.filter = kCheapestFilter;
     add_view(light, in.drawn, v, out.plain.accuracy);
     out.row.ray_masks = out.row.triangles && in.masked;
-    out.row.antialias = out.row.triangles && light.shadow.antialias;
+    out.row.antialias = out.row.triangles && filter_row(request.map.filter).area_shares && light.shadow.antialias;
     if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;

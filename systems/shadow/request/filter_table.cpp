@@ -121,7 +121,7 @@ constexpr FilterRow kRows[] = {
     {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/pcf/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
      MapReading::depths, kDepthsAlone, 2.5f},
     {ShadowFilter::triangles, "triangles", "shadow/filters/triangles/triangles.glsl", of_triangles, 3.0f,
-     FilterWidth::fixed, MapReading::depths, kTriangleIds, 2.5f, 1.0f},
+     FilterWidth::fixed, MapReading::depths, kTriangleIds, 2.5f, 1.0f, nullptr, nullptr, true},
     prefiltered(ShadowFilter::exponential, "exponential", "shadow/filters/prefiltered/exponential.glsl", kExponential),
     prefiltered(ShadowFilter::vsm, "vsm", "shadow/filters/prefiltered/vsm.glsl", kVariance),
     prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/prefiltered/evsm2.glsl", kWarped),
@@ -132,7 +132,7 @@ constexpr FilterRow kRows[] = {
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/prefiltered/pcss_moments.glsl",
                           kFourMoments),
     {ShadowFilter::exact, "exact", "shadow/filters/exact/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
-     MapReading::depths, kConservativeBounds, 0.0f, 0.75f, nullptr, &kOneRay},
+     MapReading::depths, kConservativeBounds, 0.0f, 0.75f, nullptr, &kOneRay, true},
     {ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact/exact_soft.glsl", of_rays, 0.5f, FilterWidth::source,
      MapReading::depths, kSourceBounds, 0.0f, 0.75f, nullptr, &kSourceRays},
 };

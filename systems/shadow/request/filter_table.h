@@ -83,6 +83,7 @@ struct FilterRow {
     /// Blurred moments of distances beside the map (shaders/shadow/passes/prefilter). nullptr: none.
     const MomentRow* moments = nullptr;
     const RayRow* rays = nullptr;  // rays beside the map; nullptr: none
+    bool area_shares = false;      // LightShadow::antialias: knows the lit share of a pixel's area
 };
 
 /// Default filter, and meaning of ShadowFilter::automatic unless the target chooses another: the row that measures

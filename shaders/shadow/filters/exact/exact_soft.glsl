@@ -18,7 +18,7 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
         dvec3 along = middle + dvec3(right * at.x + up * at.y);
         if (!(dot(vec3(along), normal) > 0.0)) continue;
         ++rays;
-        lit += int(lit_along(position_ca, along, kNoEnd, error_m, receiver));
+        lit += int(lit_along(position_ca, vec3(0.0), along, kNoEnd, error_m, receiver));
     }
     return rays > 0 ? float(lit) / float(rays) : 0.0;
 }
