@@ -16,7 +16,8 @@ bool is_among(std::span<const ShadowFilter> filters, ShadowFilter filter) {
 }
 
 bool for_area_shares(Settings s, LightKind) {
-    static constexpr std::array kWithShares{ShadowFilter::automatic, ShadowFilter::triangles, ShadowFilter::exact};
+    static constexpr std::array kWithShares{ShadowFilter::automatic, ShadowFilter::triangles, ShadowFilter::pcss,
+                                            ShadowFilter::exact, ShadowFilter::exact_soft};
     return is_among(kWithShares, s.shadow.filter);
 }
 
@@ -89,7 +90,7 @@ constexpr std::array kBasic{
     SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments or exact_soft"},
 };
 constexpr std::array kQuality{
-    SettingUse{"antialias", for_area_shares, "filter automatic, triangles or exact"},
+    SettingUse{"antialias", for_area_shares, "filter automatic, triangles, exact, exact_soft or pcss"},
     SettingUse{"resolution"},
     SettingUse{"caster_faces", for_depths, "a filter other than exact and exact_soft"},
     SettingUse{"layers"},

@@ -53,12 +53,12 @@ struct HalfCovered {
         LightTruth middles;
         AreaTruth truth;
     };
-    Traced trace(const LightItem& light) const {
+    Traced trace(const LightItem& light, const AreaSampling& sampling = {}) const {
         const ReferenceTracer tracer = scene.tracer();
         const ConsumerItem camera = scene.view_from_above(kSide_px, 4.0);
         Traced traced{tracer.trace_primary(camera), {}, {}};
         traced.middles = tracer.trace_light(traced.hits, light, true);
-        traced.truth = tracer.trace_area(camera, traced.hits, traced.middles, light, {});
+        traced.truth = tracer.trace_area(camera, traced.hits, traced.middles, light, sampling);
         return traced;
     }
 };
@@ -95,6 +95,42 @@ TEST(AreaTruth, UnderALampTheShadowIsLarger) {
     const HalfCovered world(0.5, 0.31, 3.0);
     expect_shares(world, world.scene.lamp({0.0, 12.0, 0.0}), 12.0 / 9.0);
     expect_shares(world, world.scene.spot({0.0, 12.0, 0.0}, {0.0, 1.0, 0.0}, 0.9), 12.0 / 9.0);
+}
+
+/// Returns the share of the unit disk where x is below `to`.
+double disk_below(double to) {
+    const double x = std::clamp(to, -1.0, 1.0);
+    return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::acos(-1.0);
+}
+
+TEST(AreaTruth, OfASourceIsTheShareOfItsDiskWhereThatIsManyPixelsWide) {
+    constexpr double kHeight_m = 5.0, kWide_px = 12.0, kMostOfDisk = 0.05, kMeanOfDisk = 0.01;
+    for (const double angle_rad : {0.0, 0.8, 2.5}) {
+        SCOPED_TRACE(angle_rad);
+        const HalfCovered world(angle_rad, 0.013, kHeight_m);
+        LightItem sun = world.scene.sun({0.0, 1.0, 0.0});
+        sun.sun_radius_rad = static_cast<float>(std::atan(kWide_px * kPixel_m / kHeight_m));
+        const auto soft = world.trace(sun, {.of_source = true}), hard = world.trace(sun);
+        double error = 0.0, hard_error = 0.0;
+        for (std::size_t i = 0; i < soft.hits.count(); ++i) {
+            const glm::dvec3 p = soft.hits.position_rel_m[i];
+            const double beyond_m = glm::dot(world.across, glm::dvec2(p.x, -p.z)) - world.off_m;
+            const double expected = disk_below(beyond_m / (kWide_px * kPixel_m));
+            const double off = std::abs(static_cast<double>(soft.truth.lit[i]) - expected);
+            EXPECT_LT(off, kMostOfDisk) << "beyond by " << beyond_m / kPixel_m << " px";
+            error += off;
+            hard_error += std::abs(static_cast<double>(hard.truth.lit[i]) - expected);
+        }
+        const auto pixels = static_cast<double>(soft.hits.count());
+        EXPECT_LT(error / pixels, kMeanOfDisk);
+        EXPECT_GT(hard_error / pixels, 5.0 * kMeanOfDisk) << "the control: rays to the middle alone";
+    }
+}
+
+TEST(AreaTruth, OfASourceWithoutASizeIsThatOfItsMiddleToTheBit) {
+    const HalfCovered world(0.8, 0.013, 5.0);
+    const LightItem sun = world.scene.sun({0.0, 1.0, 0.0});
+    EXPECT_EQ(world.trace(sun, {.of_source = true}).truth.lit, world.trace(sun).truth.lit);
 }
 
 TEST(AreaTruth, WithoutCasterNoPixelIsCrossed) {
