@@ -14,7 +14,7 @@
 
 struct ShadowRay {
     dvec3 from_ca;   // from the camera's anchor, metres
-    vec3 beside_m;   // from there to the receiver, on whose plane both lie; 0: it begins at the receiver
+    vec3 beside_m;   // from there to the receiver, along its plane; 0: it begins at the receiver
     dvec3 along;
     float last;      // its end, times `along`; kNoEnd: nowhere
     float reach;     // from there on nothing is known to stand in its way: boxes beyond are not walked

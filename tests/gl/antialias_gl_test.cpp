@@ -127,7 +127,7 @@ TEST_F(AntialiasOfSources, TapsHaveFewerStairsInNarrowPenumbraeAndNoMoreErrorInW
     expect_nearer("filter=pcss", 0.95);
 }
 
-// Counts pixels whose every seen place is lit, beside another surface that the camera sees.
+// Counts pixels that show another surface, too, and of their own lit places alone.
 struct Feet { std::size_t all = 0, darkened = 0; };
 
 Feet feet_of(const bench::LightAccuracy& light) {

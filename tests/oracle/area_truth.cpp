@@ -19,7 +19,7 @@ namespace {
 /// What the places of a pixel found.
 struct Places {
     std::uint32_t all = 0, seen = 0, lit = 0;  // all places; those on the seen surface; the lit ones of these
-    std::uint32_t behind = 0;                  // seen ones whose place of the source is behind the surface
+    std::uint32_t behind = 0;                  // seen ones, for places of the source behind the surface
     std::uint32_t rays() const { return seen - behind; }
     bool faces = true;                         // false: the light does not reach or face some place
     bool mixed() const { return !faces || seen < all || (lit > 0 && lit < rays()); }
