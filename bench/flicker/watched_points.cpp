@@ -25,7 +25,7 @@ bool is_beside_edge(const oracle::AreaTruth& truth, const glm::ivec2& size_px, c
     return false;
 }
 
-/// Returns the pixel whose square shows the place; kNoPixel if none does.
+/// Returns the pixel with the place in its square; kNoPixel if there is none.
 std::size_t nearest_pixel(const PathFrame& frame, const glm::dvec3& point_ws_m) {
     if (!in_view(frame.pose, point_ws_m)) return kNoPixel;
     const glm::dvec2 at = glm::floor(place_px(frame.pose, point_ws_m) - frame.jitter_px + 0.5);
@@ -34,8 +34,8 @@ std::size_t nearest_pixel(const PathFrame& frame, const glm::dvec3& point_ws_m) 
     return static_cast<std::size_t>(at.y) * frame.pose.viewport_px.x + static_cast<std::size_t>(at.x);
 }
 
-/// Returns whether the pixel's centre sees the point's surface: its tangent plane passes by the point as near as it does
-/// by places of one area (oracle::kSameSurface_px).
+/// Returns whether the pixel's centre sees the point's surface. Its tangent plane passes by the point as near as by
+/// places of one area (oracle::kSameSurface_px).
 bool shows(const oracle::PrimaryHits& hits, const ConsumerItem& pose, std::size_t pixel, const SurfacePoint& point,
            const glm::dvec3& origin_ws_m) {
     if (hits.triangle[pixel] == oracle::kNoTriangle) return false;
