@@ -26,7 +26,7 @@ const glm::dvec3 kToLight = glm::normalize(glm::dvec3(0.35, 1.0, 0.2));
 
 /// Places within this share of a bar's width from its edges do not count: bars are thick by an eighth of it.
 constexpr double kEdgeShare = 0.05;
-/// Bars of a width are there if so many of the pixels are right, wherever texels lie beside them.
+/// Share of the pixels that are right from which on bars of a width are there, wherever texels lie beside them.
 constexpr double kThere = 0.9;
 /// At the stated width all are, up to what rounding decides at edges.
 constexpr double kAllThere = 0.995;
@@ -140,7 +140,7 @@ protected:
     void draw_settled() {
         for (int i = 0; i < 2; ++i) draw();
     }
-    /// Draws. Returns the share of right pixels, of those that are dark in truth, and between teeth of the lit ones.
+    /// Draws. Returns the share of right pixels: of truly dark ones, and between teeth of the lit ones, too.
     double right_share(const Bars& bars) {
         draw_settled();
         const std::vector<float> seen = visibility();
