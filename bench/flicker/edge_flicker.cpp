@@ -132,8 +132,8 @@ Result<EdgeFlickers> measure_edge_flicker(Stage& stage, const EdgeFlickerOptions
     const oracle::PrimaryHits hits = tracer.trace_primary(watch.start);
     for (WatchedLight& light : watch.lights)
         if (stage.frame().report().lights[light.light].state != LightState::skipped)
-            light.points = points_beside_edges(tracer, hits, watch.start, origin_ws_m,
-                                               watch.scene.lights[light.light], options.points);
+            light.points = points_beside_edges(tracer, hits, watch.start, origin_ws_m, watch.scene.lights[light.light],
+                                               options.points);
     for (const std::string& path : paths.value()) {
         std::vector<EdgeFlicker> rows = rows_of(path, watch);
         const std::vector<PathFrame> frames = frames_of(path, watch, options);

@@ -10,8 +10,7 @@ namespace {
 std::string value_of(const std::string& setting) { return setting.substr(setting.find('=') + 1); }
 
 std::string line_of(const EdgeFlicker& r) {
-    if (!r.reason.empty())
-        return formatted("%-6s %-14.14s %s\n", r.path.c_str(), r.light.c_str(), r.reason.c_str());
+    if (!r.reason.empty()) return formatted("%-6s %-14.14s %s\n", r.path.c_str(), r.light.c_str(), r.reason.c_str());
     const oracle::AreaFlicker &a = r.compared[0], &b = r.compared[1];
     return formatted("%-6s %-14.14s %6u %6zu %6.3f %7.4f %7.4f %6.3f %6.3f %6.3f %8.5f %8.5f %4zu %4zu %4zu %4zu\n",
                      r.path.c_str(), r.light.c_str(), r.points, b.pairs, b.truth, a.mean, b.mean, r.ratio(), a.p99,

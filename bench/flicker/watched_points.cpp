@@ -18,8 +18,8 @@ constexpr std::uint32_t kFindingSide = 4;
 bool is_beside_edge(const oracle::AreaTruth& truth, const glm::ivec2& size_px, const glm::ivec2& at) {
     for (int y = std::max(at.y - 1, 0); y <= std::min(at.y + 1, size_px.y - 1); ++y)
         for (int x = std::max(at.x - 1, 0); x <= std::min(at.x + 1, size_px.x - 1); ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px.x) +
-                                  static_cast<std::size_t>(x);
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px.x) + static_cast<std::size_t>(x);
             if (truth.area[i] == oracle::PixelArea::whole && truth.lit[i] > 0.0f && truth.lit[i] < 1.0f) return true;
         }
     return false;

@@ -11,14 +11,14 @@
 #include "engine/mesh/mesh_topology.h"
 #include "tests/gl/frame_fixture.h"
 
-// The width that a light states of casters that its maps resolve (ResolvedWidth), against the width from which on shadows
-// of bars are there. Bars hang across the light over a floor: lone wires, and combs with gaps as wide as their teeth. They
-// lie along the texels and obliquely. Where their shadows are is known in closed form.
+// The width that a light states of casters that its maps resolve (ResolvedWidth), against the width from which on
+// shadows of bars are there. Bars hang across the light over a floor: lone wires, and combs with gaps as wide as their
+// teeth. They lie along the texels and obliquely. Where their shadows are is known in closed form.
 namespace gnomon {
 namespace {
 
-constexpr double kFloor_m = 0.6;  // half its edge: texels and widths are nearly the same all over it
-constexpr double kShown = 0.9;    // share of the floor that the picture shows
+constexpr double kFloor_m = 0.6;               // half its edge: texels and widths are nearly the same all over it
+constexpr double kShown = 0.9;                 // share of the floor that the picture shows
 constexpr double kMargin_m = 1.45 * kFloor_m;  // bars hang so far out that none is missing at the floor's corners
 constexpr glm::uvec2 kPicture_px{160, 128};
 // Neither along the world's axes nor along a cube's.
@@ -147,7 +147,8 @@ protected:
         std::size_t all = 0, right = 0;
         for (std::size_t i = 0; i < seen.size(); ++i) {
             const glm::dvec3 floor_ws_m = floor_at(i);
-            if (seen[i] < 0.0f || std::max(std::abs(floor_ws_m.x), std::abs(floor_ws_m.z)) > kShown * kFloor_m) continue;
+            if (seen[i] < 0.0f || std::max(std::abs(floor_ws_m.x), std::abs(floor_ws_m.z)) > kShown * kFloor_m)
+                continue;
             const double in = inside(bars, floor_ws_m);
             const bool dark = in > 0.0;
             if (std::abs(in) < kEdgeShare || !(dark || bars.comb)) continue;

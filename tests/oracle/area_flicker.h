@@ -29,9 +29,9 @@ struct AreaFlicker {
     std::size_t pairs = 0;  // an edge crosses the pixel in either frame; the figures below are of these
     double mean = 0.0;      // |change of visibility - change of the lit share|
     double p99 = 0.0;
-    double truth = 0.0;              // mean |change of the lit share|
-    std::size_t uncrossed = 0;       // counted pairs that no edge crosses in either frame
-    double uncrossed_mean = 0.0;     // the same difference over these
+    double truth = 0.0;                             // mean |change of the lit share|
+    std::size_t uncrossed = 0;                      // counted pairs that no edge crosses in either frame
+    double uncrossed_mean = 0.0;                    // the same difference over these
     std::size_t left_out[kWatchedStates - 1] = {};  // pairs by the first state, other than whole, that one of them has
 };
 
