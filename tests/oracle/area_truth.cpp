@@ -24,6 +24,12 @@ struct Places {
     bool faces = true;                         // false: the light does not reach or face some place
     bool mixed() const { return !faces || seen < all || (lit > 0 && lit < rays()); }
     bool is_lit() const { return lit > 0; }
+    /// Writes what they found; nothing where the light does not reach or face them all, or none is on the surface.
+    void write(std::size_t i, AreaTruth& truth) const {
+        if (all == 0 || !faces || rays() == 0) return;
+        truth.lit[i] = static_cast<float>(lit) / static_cast<float>(rays());
+        truth.area[i] = seen == all ? PixelArea::whole : PixelArea::partial;
+    }
 };
 
 /// Returns the i-th of `count` places of the unit square around the origin. A lattice, because rows of a grid lie all
@@ -54,8 +60,9 @@ public:
           source_(of_source ? source_size(light) : 0.0) {}
 
     Places trace(std::size_t pixel, std::uint32_t side, std::uint32_t& hint) const {
-        const glm::dvec2 centre(static_cast<double>(pixel % hits_.size_px.x),
-                                static_cast<double>(pixel / hits_.size_px.x));
+        const glm::dvec2 centre = glm::dvec2(static_cast<double>(pixel % hits_.size_px.x),
+                                             static_cast<double>(pixel / hits_.size_px.x)) +
+                                  hits_.jitter_px;
         Places places;
         places.all = side * side;
         const double within_m = kSameSurface_px * pixel_width_m(pixel, centre);
@@ -170,12 +177,26 @@ AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryH
     }
     trace_where(sampling.side, undecided);
     truth.sampled = sampled;
-    for (std::size_t i = 0; i < hits.count(); ++i) {
-        const Places& places = found[i];
-        if (places.all == 0 || !places.faces || places.rays() == 0) continue;
-        truth.lit[i] = static_cast<float>(places.lit) / static_cast<float>(places.rays());
-        truth.area[i] = places.seen == places.all ? PixelArea::whole : PixelArea::partial;
-    }
+    for (std::size_t i = 0; i < hits.count(); ++i) found[i].write(i, truth);
+    return truth;
+}
+
+AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryHits& hits,
+                                      std::span<const std::size_t> pixels, const LightItem& light,
+                                      const AreaSampling& sampling) const {
+    constexpr std::size_t kChunk = 16;
+    const AreaTracer tracer(world_->traced, camera, hits, light, sampling.of_source);
+    AreaTruth truth;
+    truth.lit.assign(pixels.size(), -1.0f);
+    truth.area.assign(pixels.size(), PixelArea::unscored);
+    truth.sampled = pixels.size();
+    const auto chunks = static_cast<std::uint32_t>((pixels.size() + kChunk - 1) / kChunk);
+    parallel_rows(chunks, world_->threads, [&](std::uint32_t chunk) {
+        std::uint32_t hint = kNoTriangle;
+        for (std::size_t i = chunk * kChunk; i < std::min(pixels.size(), (chunk + 1) * kChunk); ++i)
+            if (hits.triangle[pixels[i]] != kNoTriangle)
+                tracer.trace(pixels[i], sampling.side, hint).write(i, truth);
+    });
     return truth;
 }
 

@@ -166,6 +166,45 @@ TEST(AreaTruth, WhereAnotherSurfaceShowsInAPixelItIsPartial) {
     EXPECT_EQ(*std::min_element(truth.lit.begin(), truth.lit.end()), 1.0f);
 }
 
+TEST(AreaTruth, OfAFewPixelsIsThatOfThePicture) {
+    const HalfCovered world(0.5, 0.31, 3.0);
+    const LightItem light = world.scene.lamp({0.0, 12.0, 0.0});
+    const auto traced = world.trace(light);
+    std::vector<std::size_t> crossed;
+    for (std::size_t i = 0; i < traced.hits.count(); ++i)
+        if (traced.truth.lit[i] > 0.0f && traced.truth.lit[i] < 1.0f) crossed.push_back(i);
+    ASSERT_GE(crossed.size(), kSide_px);
+    const AreaTruth few = world.scene.tracer().trace_area(world.scene.view_from_above(kSide_px, 4.0), traced.hits, crossed, light, {});
+    for (std::size_t k = 0; k < crossed.size(); ++k) {
+        EXPECT_EQ(few.lit[k], traced.truth.lit[crossed[k]]);
+        EXPECT_EQ(few.area[k], PixelArea::whole);
+    }
+}
+
+TEST(AreaTruth, JitteredByAPixelItIsThatOfTheNeighbour) {
+    const HalfCovered world(0.5, 0.31, 3.0);
+    const ReferenceTracer tracer = world.scene.tracer();
+    const ConsumerItem camera = world.scene.view_from_above(kSide_px, 4.0);
+    const LightItem light = world.scene.lamp({0.0, 12.0, 0.0});
+    const PrimaryHits still = tracer.trace_primary(camera), moved = tracer.trace_primary(camera, {1.0, 0.0});
+    std::vector<std::size_t> pixels, beside;
+    for (std::size_t i = 0; i < still.count(); ++i) {
+        if (i % kSide_px + 1 == kSide_px) continue;
+        pixels.push_back(i);
+        beside.push_back(i + 1);
+    }
+    const AreaTruth of_moved = tracer.trace_area(camera, moved, pixels, light, {}),
+                    of_still = tracer.trace_area(camera, still, beside, light, {}),
+                    unmoved = tracer.trace_area(camera, still, pixels, light, {});
+    std::size_t same = 0, same_unmoved = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        same += of_moved.lit[k] == of_still.lit[k];
+        same_unmoved += of_moved.lit[k] == unmoved.lit[k];
+    }
+    EXPECT_EQ(same, pixels.size());
+    EXPECT_LT(same_unmoved + kSide_px, pixels.size());  // control: the edge has moved
+}
+
 TEST(AreaTruth, YesOrNoIsOffByAQuarterOnAverage) {
     double error = 0.0;
     std::size_t count = 0;
