@@ -19,6 +19,7 @@
 #include "bench/embed/embed_costs.h"
 #include "bench/embed/host_engine.h"
 #include "bench/fit_drawings/fit_drawings.h"
+#include "bench/flicker/edge_flicker.h"
 #include "bench/flicker/flicker.h"
 #include "bench/frame/frame_compare.h"
 #include "bench/frame/frame_times.h"
@@ -140,9 +141,24 @@ int run_frame(const Arguments& arguments) {
     return 0;
 }
 
+int run_edge_flicker(Stage& stage, const Arguments& arguments) {
+    EdgeFlickerOptions options;
+    if (arguments.frames_given) options.frames = arguments.stability.frames;
+    if (arguments.points_given) options.points = arguments.stability.points;
+    options.step_px = arguments.step_px;
+    options.area_side = arguments.area_side;
+    options.paths = arguments.stability.paths;
+    const auto flickers = measure_edge_flicker(stage, options);
+    if (!flickers) return fail(flickers.error());
+    if (auto error = put_out(arguments, edge_flicker_table(flickers.value()), edge_flicker_json(flickers.value())))
+        return fail(*error);
+    return 0;
+}
+
 int run_stability(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
+    if (arguments.area_side > 0) return run_edge_flicker(*stage.value(), arguments);
     const auto stability = measure_stability(*stage.value(), arguments.stability);
     if (!stability) return fail(stability.error());
     if (auto error = put_out(arguments, stability_table(stability.value()), stability_json(stability.value())))
@@ -324,6 +340,8 @@ int run(int argc, char** argv) {
     arguments.repeat_given = is_given("--repeat");
     arguments.size_given = is_given("--size");
     arguments.lights_given = is_given("--lights");
+    arguments.frames_given = is_given("--frames");
+    arguments.points_given = is_given("--points");
     arguments.audit = chosen.get_name() == "audit";
     if (auto error = complete(arguments)) return fail(*error);
     const auto* command = std::find_if(std::begin(kCommands), std::end(kCommands),

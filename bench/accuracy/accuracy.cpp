@@ -94,7 +94,8 @@ void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHi
 void judge_area(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& scene,
                 std::uint32_t light, std::uint32_t side, LightAccuracy& accuracy) {
     AreaAccuracy& area = accuracy.area.emplace();
-    area.truth = tracer.trace_area(scene.consumers.front(), hits, accuracy.truth, scene.lights[light], {side});
+    area.truth = tracer.trace_area(scene.consumers.front(), hits, accuracy.truth, scene.lights[light],
+                                   {.side = side, .of_source = accuracy.soft.has_value()});
     area.metrics = oracle::compare_area(area.truth, accuracy.measured, accuracy.truth.ambiguous);
 }
 

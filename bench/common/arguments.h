@@ -8,6 +8,7 @@
 #include "bench/common/stage.h"
 #include "bench/cost_model/calibrate.h"
 #include "bench/embed/embed_costs.h"
+#include "bench/flicker/edge_flicker.h"
 #include "bench/flicker/flicker.h"
 #include "bench/queries/queries.h"
 #include "bench/scaling/light_count.h"
@@ -26,6 +27,7 @@ struct Arguments {
     std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5, area_side = 0;
     StabilityOptions stability;
+    double step_px = EdgeFlickerOptions{}.step_px;
     std::string plot, drawings, filters, rows, markdown;
     DemandOptions demand;
     SpeedOptions speeds;
@@ -35,7 +37,8 @@ struct Arguments {
     std::string sweep, sweep_rows;
     bool quick = false, audit = false, beside = false;
     std::string out = "gnomon_sweep";
-    bool rounds_given = false, repeat_given = false, size_given = false, lights_given = false;
+    bool rounds_given = false, repeat_given = false, size_given = false, lights_given = false,
+         frames_given = false, points_given = false;
 };
 
 /// A command's options.

@@ -17,6 +17,7 @@ constexpr std::uint32_t kMaxRepeats = 100000;
 constexpr std::uint32_t kMostLights = 100000;
 constexpr std::uint32_t kMaxPoints = 10000000;
 constexpr unsigned kMostThreads = 1024;
+constexpr double kLeastStep_px = 0.01, kMostStep_px = 100.0;
 
 void add_scene(CLI::App& command, Arguments& arguments) {
     command.add_option("--scene", arguments.scenes, "glTF or GLB, valley or spheres (default: the built-in courtyard)");
@@ -97,10 +98,19 @@ void add_stability(CLI::App& command, Arguments& arguments) {
     command.add_option("--points", options.points, "points of the world that are watched on each path")
         ->check(CLI::Range(1u, kMaxPoints))
         ->capture_default_str();
-    command.add_option("--path", options.paths, "pan, walk, roll or zoom (default: all)")->allow_extra_args(false);
+    command.add_option("--path", options.paths, "pan, walk, roll or zoom, with --area also jitter (default: all)")
+        ->allow_extra_args(false);
     command.add_option("--fit", options.fits, "one of --set fit's (default: all)")->allow_extra_args(false);
     command.add_option("--plot", arguments.plot, "write flips against frames to this SVG file");
-    command.footer([] { return stability_legend(); });
+    command
+        .add_option("--area", arguments.area_side,
+                    "edges in pictures instead, antialias=off beside on, by N x N rays a pixel: 16 for figures; then "
+                    "by default 24 frames and 1000 points a light")
+        ->check(CLI::Range(0u, kMostAreaSide));
+    command.add_option("--step", arguments.step_px, "with --area: pixels that points move from frame to frame")
+        ->check(CLI::Range(kLeastStep_px, kMostStep_px))
+        ->capture_default_str();
+    command.footer([] { return stability_legend() + edge_flicker_legend(); });
 }
 
 void add_drawings(CLI::App& command, Arguments& arguments) {

@@ -1,5 +1,6 @@
 #include "bench/flicker/camera_path.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -25,9 +26,31 @@ constexpr std::array kPaths{CameraPath{"pan", "turns by 60 degrees about the ver
 
 double tan_half(const ConsumerItem& c) { return std::tan(0.5 * c.fov_y_rad); }
 
+/// Returns half the height of what the camera sees at a depth before it.
+double half_height_m(const ConsumerItem& c, double depth_m) {
+    return c.projection == CameraProjection::orthographic ? c.half_height_m : depth_m * tan_half(c);
+}
+
+/// Returns a point right of, above and behind the camera.
+glm::dvec3 seen_from(const ConsumerItem& c, const glm::dvec3& point_ws_m) {
+    return (point_ws_m - c.position_ws_m) * c.rotation_ws;
+}
+
 }  // namespace
 
 std::span<const CameraPath> camera_paths() { return kPaths; }
+
+Result<std::vector<std::string>> chosen_names(const std::vector<std::string>& wanted,
+                                              const std::vector<std::string>& known, const char* what) {
+    for (const std::string& name : wanted) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        std::string all;
+        for (const std::string& k : known) all += (all.empty() ? "" : " | ") + k;
+        return Error{std::string("--") + what + " takes " + all + ", not '" + name + "'", "", "",
+                     std::string("bench.") + what};
+    }
+    return wanted.empty() ? known : wanted;
+}
 
 ConsumerItem on_path(const ConsumerItem& start, std::string_view path, double share, double distance_m) {
     ConsumerItem c = start;
@@ -54,9 +77,23 @@ Transform transform_of(const ConsumerItem& consumer) {
     return {.translation_m = consumer.position_ws_m, .rotation = glm::quat_cast(consumer.rotation_ws)};
 }
 
-void write_lens(const ConsumerItem& consumer, Camera& camera) {
-    camera.fov_y_rad = consumer.fov_y_rad;
-    camera.half_height_m = consumer.half_height_m;
+void place_camera(const ConsumerItem& consumer, ecs::Registry& world) {
+    world.patch<Transform>(consumer.entity, [&](Transform& t) { t = transform_of(consumer); });
+    world.patch<Camera>(consumer.entity, [&](Camera& camera) {
+        camera.fov_y_rad = consumer.fov_y_rad;
+        camera.half_height_m = consumer.half_height_m;
+    });
+}
+
+glm::dvec2 place_px(const ConsumerItem& c, const glm::dvec3& point_ws_m) {
+    const glm::dvec3 p = seen_from(c, point_ws_m);
+    const double half_y = half_height_m(c, -p.z);
+    const glm::dvec2 ndc(p.x / (half_y * aspect(c)), p.y / half_y);
+    return (ndc + 1.0) * 0.5 * glm::dvec2(c.viewport_px) - 0.5;
+}
+
+double pixel_width_m(const ConsumerItem& c, const glm::dvec3& point_ws_m) {
+    return 2.0 * half_height_m(c, -seen_from(c, point_ws_m).z) / c.viewport_px.y;
 }
 
 oracle::ExactRay ray_through(const ConsumerItem& c, const glm::dvec2& place, const glm::dvec3& origin_ws_m) {
@@ -70,9 +107,8 @@ oracle::ExactRay ray_through(const ConsumerItem& c, const glm::dvec2& place, con
 }
 
 bool in_view(const ConsumerItem& c, const glm::dvec3& point_ws_m) {
-    const glm::dvec3 p = (point_ws_m - c.position_ws_m) * c.rotation_ws;
-    const bool flat = c.projection == CameraProjection::orthographic;
-    const double half_y = (flat ? c.half_height_m : -p.z * tan_half(c)) * (1.0 - kBorderShare);
+    const glm::dvec3 p = seen_from(c, point_ws_m);
+    const double half_y = half_height_m(c, -p.z) * (1.0 - kBorderShare);
     return -p.z > c.near_m && -p.z < c.far_m && std::abs(p.y) < half_y && std::abs(p.x) < half_y * aspect(c);
 }
 

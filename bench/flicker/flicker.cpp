@@ -27,19 +27,6 @@ std::vector<std::string> known_paths() {
     return names;
 }
 
-/// Returns the wanted names; all known ones if none is given. Error: a name is unknown.
-Result<std::vector<std::string>> chosen(const std::vector<std::string>& wanted, const std::vector<std::string>& known,
-                                        const char* what) {
-    for (const std::string& name : wanted) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        std::string all;
-        for (const std::string& k : known) all += (all.empty() ? "" : " | ") + k;
-        return Error{std::string("--") + what + " takes " + all + ", not '" + name + "'", "", "",
-                     std::string("bench.") + what};
-    }
-    return wanted.empty() ? known : wanted;
-}
-
 /// One light's effect on its points in the last frame.
 struct WatchedLight {
     std::vector<std::uint32_t> points;    // points that the light shines on
@@ -264,9 +251,9 @@ std::vector<std::string> known_fits() {
 }
 
 Result<Stability> measure_stability(Stage& stage, const StabilityOptions& options) {
-    const auto paths = chosen(options.paths, known_paths(), "path");
+    const auto paths = chosen_names(options.paths, known_paths(), "path");
     if (!paths) return paths.error();
-    auto fits = chosen(options.fits, known_fits(), "fit");
+    auto fits = chosen_names(options.fits, known_fits(), "fit");
     if (!fits) return fits.error();
     const bool no_choice = fits.value().empty();  // this build knows one fit only
     const std::vector<std::string> runs = no_choice ? std::vector<std::string>{"tight"} : fits.value();

@@ -37,9 +37,7 @@ ShadowFrames::ShadowFrames(Stage& stage, GpuScene scene)
       caster_triangles_(caster_triangles_of(stage.library())) {}
 
 std::optional<Error> ShadowFrames::run(const ConsumerItem& consumer) {
-    ecs::Registry& world = stage_.world();
-    world.patch<Transform>(consumer.entity, [&](Transform& t) { t = transform_of(consumer); });
-    world.patch<Camera>(consumer.entity, [&](Camera& c) { write_lens(consumer, c); });
+    place_camera(consumer, stage_.world());
     return run();
 }
 

@@ -108,8 +108,9 @@ struct LightShadow {
     /// narrowest_caster_px is set and no map with triangles meets it. Change it for soft shadows (pcss, exact_soft),
     /// for edges without any error (exact), or for speed (hardware_2x2).
     ShadowFilter filter = ShadowFilter::automatic;
-    /// Antialiased edges of `triangles`: visibility is the share of a pixel's area that the light reaches. false: 0 or
-    /// 1, by the pixel's middle. Other filters do not depend on it. Set it where stairs at edges show; it costs time.
+    /// Antialiased edges of `triangles`, `exact`, `exact_soft` and `pcss`: visibility is the share of a pixel's area that
+    /// the light reaches. false: by the pixel's middle. Other filters do not depend on it. Set it where stairs at edges
+    /// show; it costs time.
     bool antialias = false;
     /// Largest allowed error of a shadow's edge on screen, pixels, 0 to 10 000. 0: 1, as far as maps of default size
     /// meet it. It holds for casters that the map resolves (ResolvedWidth). Smaller: larger maps or a slower filter.

@@ -14,6 +14,7 @@
 
 struct ShadowRay {
     dvec3 from_ca;   // from the camera's anchor, metres
+    vec3 beside_m;   // from there to the receiver, along its plane; 0: it begins at the receiver
     dvec3 along;
     float last;      // its end, times `along`; kNoEnd: nowhere
     float reach;     // from there on nothing is known to stand in its way: boxes beyond are not walked
@@ -64,7 +65,7 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
     mat3 to_model = mat3(item.to_model_x, item.to_model_y, item.to_model_z);
     BoxRay boxes = box_ray(to_model * -origin_m, to_model * ray.along, item.slack_per_m * rounded_m);
 
-    bool blocked = false;
+    bool blocked = false, is_beside = exact.beside_m != vec3(0.0);
     while (n < item.end_node && !blocked && unsure_count <= kMostUnsure - kMostInLeaf) {
         uint leaf = 0u;
         while (n < item.end_node && leaf == 0u) {
@@ -79,7 +80,8 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
             int verdict = meets_triangle(from_model * t.a + origin, from_model * t.b + origin, from_model * t.c + origin,
                                          ray.end_m, error_m);
             if (t.triangle == exact.receiver.y && item.instance == exact.receiver.x) verdict = kMisses;
-            if (kHasMasks && verdict == kMeets && t.mask != kOpaque) verdict = kUnsure;
+            bool is_open = is_beside || (kHasMasks && t.mask != kOpaque);
+            if (verdict == kMeets && is_open) verdict = kUnsure;
             if (verdict == kUnsure) unsure[unsure_count++] = uvec2(slot, first + i);
             blocked = verdict == kMeets;
         }
@@ -98,7 +100,7 @@ bool blocks_exactly(ShadowRay ray, uvec2 slots) {
     float units = item.instance == ray.receiver.x ? kPlacedRelative : 4.0 * kUnitRoundoff;
     float error_m = ray.error_m + units * (item.reach_m + largest_side(vec3(ray.from_ca)));
     ExactHit hit = meets_exactly(ray.along, ray.last, origin_m + exact_image(record, t.a), origin_m + exact_image(record, t.b),
-                                 origin_m + exact_image(record, t.c), error_m);
+                                 origin_m + exact_image(record, t.c), dvec3(ray.beside_m), error_m);
     if (kHasMasks && hit.met && t.mask != kOpaque) return is_there(t.mask, t.uvs, hit.weights);
     return hit.met;
 }

@@ -16,15 +16,17 @@ double exact_side_of_edge(dvec3 along, dvec3 p, dvec3 q) {
     return side;
 }
 
-// Returns whether the ray meets the triangle at t in (0, last) times `along`. A triangle is where the ray is if its
-// plane holds the ray's beginning to within error_m. It then does not stand in its way: a line meets a plane once. Not
-// a number, or no area: not met.
-ExactHit meets_exactly(dvec3 along, float last, dvec3 a, dvec3 b, dvec3 c, float error_m) {
+// Returns whether the ray meets the triangle at t in (0, last) times `along`. A triangle is where the receiver is if its
+// plane holds the receiver to within error_m. It then does not stand in its way: a line meets a plane once. Nor does a
+// triangle with the receiver between its plane and the light. Not a number, or no area: not met.
+// `receiver`: from the ray's beginning.
+ExactHit meets_exactly(dvec3 along, float last, dvec3 a, dvec3 b, dvec3 c, dvec3 receiver, float error_m) {
     dvec3 sides = dvec3(exact_side_of_edge(along, b, c), exact_side_of_edge(along, c, a), exact_side_of_edge(along, a, b));
     dvec3 normal = cross(b - a, c - a);
     double slope = dot(normal, along), height = dot(normal, a), rounding = double(error_m) * length(normal);
+    double of_receiver = height - dot(normal, receiver);
     bool inside = all(greaterThanEqual(sides, dvec3(0.0))) || all(lessThanEqual(sides, dvec3(0.0)));
-    bool ahead = slope > 0.0 ? height > rounding : slope < 0.0 && height < -rounding;
+    bool ahead = slope > 0.0 ? height > 0.0 && of_receiver > rounding : slope < 0.0 && height < 0.0 && of_receiver < -rounding;
     bool before_end = last >= kNoEnd || (slope > 0.0 ? height < double(last) * slope : height > double(last) * slope);
     return ExactHit(inside && ahead && before_end, vec3(sides / (sides.x + sides.y + sides.z)));
 }

@@ -39,7 +39,7 @@ public:
     void record(const LightProgram& light, const Part& part, gl::SamplerHandle sampler, const BindInputs& bind_inputs,
                 gl::CommandList& list) const {
         begin(part, true, list);
-        draw(light.decided_program, part, true, bind_inputs, list);
+        if (light.decided_program) draw(light.decided_program, part, true, bind_inputs, list);
         draw(light.program, part, false, bind_inputs, list);
         list.add(gl::EndPass{});
         list.add(gl::CopyTexture{part.surfaces, depth_, 0, part.area});

@@ -23,7 +23,7 @@ struct LightProgram {
     gl::BufferHandle ends{};                               // for area lights on such maps
     gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` traces the rays itself
     gl::ProgramHandle decided_program{};  // draws all but slow pixels, which remain for `program`; {0}: none
-    EdgePrograms edges{};                 // with these, the two draw middles
+    EdgePrograms edges{};                 // with these, the two draw middles, or `program` alone those of rays
     Reason lacks = Reason::none;          // reason why it is not the light's own row
     bool unshadowed = false;
 };

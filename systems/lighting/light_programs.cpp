@@ -37,13 +37,18 @@ const char* output_name(ShaderPass output) {
             return "undecided middles";
         case ShaderPass::crossed_areas:
             return "crossed areas";
+        case ShaderPass::found_middles:
+            return "found middles";
     }
     return "light";
 }
 
-/// Returns true for one of EdgePass's first draws.
-bool is_middles(ShaderPass output) {
-    return output == ShaderPass::decided_middles || output == ShaderPass::undecided_middles;
+/// Returns what the state of a middle adds to its share, in GLSL; empty: the output is not one of EdgePass's first
+/// draws. `listed`: the map's verdicts are kept, and rays have found the rest.
+std::string_view middle_state(ShaderPass output, bool listed) {
+    if (output == ShaderPass::undecided_middles) return "kUndecided";
+    if (output == ShaderPass::found_middles && listed) return "kUndecided * float(is_listed(ivec2(gl_FragCoord.xy)))";
+    return output == ShaderPass::decided_middles || output == ShaderPass::found_middles ? "0.0" : "";
 }
 
 /// Returns true if the output adds light to the picture. Passes over blended surfaces draw only lit ones.
@@ -62,7 +67,7 @@ std::string_view visible_share_file(ShaderPass output, bool found_before) {
 std::string_view fragment_file(ShaderPass output) {
     const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility ||
                           output == ShaderPass::decided_visibility || output == ShaderPass::crossed_areas ||
-                          is_middles(output);
+                          !middle_state(output, false).empty();
     return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";
 }
 
@@ -114,7 +119,9 @@ void LightPrograms::make(Entry& entry, const std::string& label, std::string_vie
 LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ShaderKey& wanted, ShaderPass output,
                                                     std::string_view fragment) {
     shadow::ShaderKey row = wanted;
-    const bool reads_answers = row.sheets && (output == ShaderPass::picture || output == ShaderPass::visibility);
+    const bool reads_answers = row.sheets && (output == ShaderPass::picture || output == ShaderPass::visibility ||
+                                              output == ShaderPass::found_middles);
+    if (row.rays && output != ShaderPass::crossed_areas) row.antialias = false;
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
     row.sheets = wanted.sheets;
     const bool some_unlit = some_unlit_ && adds_to_picture(output);
@@ -144,7 +151,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     if (is_forward(output) && coloured_) defines.emplace_back("COLOURED 1");
     if (output == ShaderPass::catcher) defines.emplace_back("INVARIANT_POSITION 1");
     if (output == ShaderPass::crossed_areas) defines.emplace_back("AREAS_ALONE 1");
-    if (is_middles(output)) defines.emplace_back("MIDDLES 1");
+    if (const std::string_view state = middle_state(output, found_before); !state.empty())
+        defines.push_back("MIDDLES " + std::string(state));
     if (output == ShaderPass::decided || output == ShaderPass::decided_visibility ||
         output == ShaderPass::decided_middles)
         defines.emplace_back("LEAVE_UNDECIDED 1");

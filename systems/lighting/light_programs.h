@@ -22,6 +22,7 @@ namespace gnomon::lighting {
 /// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of
 /// the
 ///   others, and of the areas that an edge crosses
+/// - found_middles: for EdgePass, visibility at the middles of all pixels, by rays
 enum class ShaderPass : std::uint8_t {
     picture,
     visibility,
@@ -36,7 +37,8 @@ enum class ShaderPass : std::uint8_t {
     decided_visibility,
     decided_middles,
     undecided_middles,
-    crossed_areas
+    crossed_areas,
+    found_middles
 };
 
 /// Returns whether a row's program draws meshes, in place of passes over the picture.

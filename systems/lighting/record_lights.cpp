@@ -46,26 +46,31 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
         const auto made = [&](ShaderPass part) { return made_of(light.row, part); };
         LightProgram used{{},         light.map,    light.triangles, light.sampler,
                           light.rays, light.second, light.bounds,    light.ends};
+        // Makes the programs of a list of rays, where the light has one.
+        const auto finds_rays = [&] {
+            if (!lists) return true;
+            used.verdicts_program = made(ShaderPass::verdicts);
+            used.rays_program = made(ShaderPass::rays);
+            return used.verdicts_program && used.rays_program;
+        };
         if (light.row.antialias && !is_forward(output) && edges_.is_there()) {
             shadow::ShaderKey middles = light.row;
             middles.antialias = false;
             const ShaderPass reads = output == ShaderPass::picture ? ShaderPass::kept : ShaderPass::kept_visibility;
-            used.decided_program = made_of(middles, ShaderPass::decided_middles);
-            used.program = made_of(middles, ShaderPass::undecided_middles);
+            if (!light.row.rays) used.decided_program = made_of(middles, ShaderPass::decided_middles);
+            used.program = made_of(middles, light.row.rays ? ShaderPass::found_middles : ShaderPass::undecided_middles);
             used.edges = {programs_.mark_edges(), made(ShaderPass::crossed_areas), made_of(kept_row(light.row), reads)};
-            if (used.decided_program && used.program && used.edges) return used;
+            if ((used.decided_program || light.row.rays) && used.program && used.edges && finds_rays()) return used;
             used.decided_program = {};
             used.edges = {};
         }
         used.program = made(output);
-        if (lists) used.verdicts_program = made(ShaderPass::verdicts);
-        if (lists) used.rays_program = made(ShaderPass::rays);
         // A program that only saves time is made when there is time.
         const bool leaves = !waits && light.row.triangles && !light.row.antialias && output == ShaderPass::picture &&
                             targets_.undecided_target;
         if (leaves && !programs_.must_wait(light.row, ShaderPass::decided))
             used.decided_program = programs_.row(light.row, ShaderPass::decided);
-        if (used.program && (!lists || (used.verdicts_program && used.rays_program))) return used;
+        if (used.program && finds_rays()) return used;
         lacks = waits ? Reason::filter_program_waits : Reason::filter_program_failed;
     }
     LightProgram used = fallback_program(programs_, light, output, lacks);
@@ -117,8 +122,11 @@ void LightingSystem::record_edges(const LightProgram& light, std::uint32_t index
     const auto bind_inputs = [&] {
         bind_surface_textures(list);
         bind_light(light, index, gpu, list);
+        if (light.verdicts_program) ray_list_.bind_answers(list);
     };
+    if (light.verdicts_program) record_rays(light, index, area, depth, gpu, list);
     edges_.record(light, {targets_.depth, area, depth}, point_sampler_, bind_inputs, list);
+    if (light.verdicts_program) ray_list_.unbind_answers(list);
 }
 
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,

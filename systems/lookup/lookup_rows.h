@@ -42,7 +42,7 @@ struct LookupRows {
     bool cones = true;        // spots, aimed lamps and suns with an eye
     bool cubes = true;        // points
     bool masks = true;        // masked casters by their masks, for `triangles`
-    bool antialias = false;   // antialiased edges of `triangles`, for lights that want them
+    bool antialias = false;   // antialiased edges, for lights that want them
     /// Text for hardware, where DeviceInfo::is_software is false: branches instead of loops, and four texels at once.
     bool for_hardware = false;
 };

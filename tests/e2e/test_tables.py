@@ -48,6 +48,12 @@ class Tables(unittest.TestCase):
         self.assertEqual([line for line in text.splitlines() if len(line) > COLUMNS], [])
         self.assertIn("against", text)
 
+    def test_flicker_of_edges_fits_too(self):
+        text = self.call("stability", *SMALL, "--area", "2", "--frames", "2", "--points", "20", "--path", "pan")
+        self.assertEqual([line for line in text.splitlines() if len(line) > COLUMNS], [])
+        self.assertIn("antialias=off, antialias=on", text)
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("pan ")]), 3)
+
     def test_help_has_the_legends(self):
         for name in LEGENDS:
             text = self.call(name, "--help")

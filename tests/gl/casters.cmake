@@ -13,6 +13,7 @@ if(GNOMON_SAMPLE)
     masked_casters_gl_test.cpp
     moved_casters_gl_test.cpp
     refresh_gl_test.cpp
+    resolved_width_gl_test.cpp
     vertex_colours_gl_test.cpp
     budget_gl_test.cpp
     ../economy/both_ways.cpp

@@ -81,6 +81,20 @@ TEST_F(AllLights, WithAntialiasedEdgesAreSeenAsByTheirOwnPass) {
     for (const std::vector<float>& seen : looked_up(surface_program())) EXPECT_EQ(shares(seen), 0);
 }
 
+TEST_F(AllLights, OfSourcesWithAntialiasedEdgesAreSeenAsByTheirOwnPass) {
+    const std::vector kSoft{ShadowFilter::pcss};
+    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})
+        add(kind, {.filter = ShadowFilter::pcss, .antialias = true, .resolution_px = 256}, lights.size());
+    start({.filters = kSoft, .antialias = true});
+    run();
+    const auto spread = looked_up(surface_program());
+    expect_alike(surface_program());
+    // Control: a text without it has all taps begin at each pixel's middle.
+    start({.filters = kSoft});
+    run();
+    EXPECT_NE(looked_up(surface_program()), spread);
+}
+
 TEST_F(AllLights, OfEveryOtherFilterThatReadsDepthsAreSeenAsByTheirOwnPass) {
     using enum ShadowFilter;
     const std::vector<ShadowFilter> filters = {poisson, poisson_rotated, poisson_stratified, cube_grid, cube_directions};

@@ -3,6 +3,7 @@ if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_truth LABEL gl SOURCES
     any_world_gl_test.cpp
     audit_gl_test.cpp
+    edge_flicker_gl_test.cpp
     error_gate_gl_test.cpp
     left_out_lights_gl_test.cpp
     resolved_edges_gl_test.cpp

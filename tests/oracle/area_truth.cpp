@@ -11,6 +11,7 @@
 #include "tests/oracle/parallel_rows.h"
 #include "tests/oracle/pixel_ray.h"
 #include "tests/oracle/reference_world.h"
+#include "tests/oracle/soft_truth.h"
 
 namespace gnomon::oracle {
 namespace {
@@ -18,9 +19,17 @@ namespace {
 /// What the places of a pixel found.
 struct Places {
     std::uint32_t all = 0, seen = 0, lit = 0;  // all places; those on the seen surface; the lit ones of these
+    std::uint32_t behind = 0;                  // seen ones, for places of the source behind the surface
+    std::uint32_t rays() const { return seen - behind; }
     bool faces = true;                         // false: the light does not reach or face some place
-    bool mixed() const { return !faces || seen < all || (lit > 0 && lit < seen); }
+    bool mixed() const { return !faces || seen < all || (lit > 0 && lit < rays()); }
     bool is_lit() const { return lit > 0; }
+    /// Writes what they found; nothing where the light does not reach or face them all, or none is on the surface.
+    void write(std::size_t i, AreaTruth& truth) const {
+        if (all == 0 || !faces || rays() == 0) return;
+        truth.lit[i] = static_cast<float>(lit) / static_cast<float>(rays());
+        truth.area[i] = seen == all ? PixelArea::whole : PixelArea::partial;
+    }
 };
 
 /// Returns the i-th of `count` places of the unit square around the origin. A lattice, because rows of a grid lie all
@@ -31,23 +40,34 @@ glm::dvec2 lattice_place(std::uint32_t i, std::uint32_t count) {
     return {(i + 0.5) / count - 0.5, turns - std::floor(turns) - 0.5};
 }
 
+/// Returns the i-th place of the unit disk, in no step with lattice_place(). Neighbouring pixels have others, so that
+/// few rays of each find what few of one would miss.
+glm::dvec2 source_place(std::uint32_t i, std::size_t pixel) {
+    const glm::dvec2 turns = (i + 0.5) * glm::dvec2(std::sqrt(2.0), std::sqrt(3.0)) +
+                             static_cast<double>(pixel) * glm::dvec2(std::sqrt(5.0), std::sqrt(7.0));
+    return on_disk(turns - glm::floor(turns));
+}
+
 class AreaTracer {
 public:
-    AreaTracer(const TracedWorld& world, const ConsumerItem& camera, const PrimaryHits& hits, const LightItem& light)
+    AreaTracer(const TracedWorld& world, const ConsumerItem& camera, const PrimaryHits& hits, const LightItem& light,
+               bool of_source)
         : world_(world),
           camera_(camera),
           hits_(hits),
           light_(light),
-          light_rel_m_(light.position_ws_m - world.origin_ws_m()) {}
+          light_rel_m_(light.position_ws_m - world.origin_ws_m()),
+          source_(of_source ? source_size(light) : 0.0) {}
 
     Places trace(std::size_t pixel, std::uint32_t side, std::uint32_t& hint) const {
-        const glm::dvec2 centre(static_cast<double>(pixel % hits_.size_px.x),
-                                static_cast<double>(pixel / hits_.size_px.x));
+        const glm::dvec2 centre = glm::dvec2(static_cast<double>(pixel % hits_.size_px.x),
+                                             static_cast<double>(pixel / hits_.size_px.x)) +
+                                  hits_.jitter_px;
         Places places;
         places.all = side * side;
         const double within_m = kSameSurface_px * pixel_width_m(pixel, centre);
         for (std::uint32_t i = 0; i < side * side && places.faces; ++i) {
-            add_place(pixel, centre + lattice_place(i, side * side), within_m, places, hint);
+            add_place(pixel, centre + lattice_place(i, side * side), source_place(i, pixel), within_m, places, hint);
         }
         return places;
     }
@@ -62,8 +82,8 @@ private:
         return glm::length(beside.ray.origin - here.ray.origin + (beside.ray.direction - here.ray.direction) * t);
     }
 
-    void add_place(std::size_t pixel, const glm::dvec2& at_px, double within_m, Places& places,
-                   std::uint32_t& hint) const {
+    void add_place(std::size_t pixel, const glm::dvec2& at_px, const glm::dvec2& on_source, double within_m,
+                   Places& places, std::uint32_t& hint) const {
         const PixelRay seen = pixel_ray(camera_, hits_.camera_rel_m, at_px);
         const SurfaceHit hit = world_.nearest_surface(seen.ray, seen.t_min, seen.t_max);
         if (hit.triangle == kNoTriangle) return;
@@ -85,6 +105,14 @@ private:
             ++places.lit;
             return;
         }
+        if (source_ > 0.0) {
+            const auto axes = tangents(glm::normalize(to_light));
+            to_light += source_ * (axes[0] * on_source.x + axes[1] * on_source.y);
+            if (!(glm::dot(to_light, normal) > 0.0)) {
+                ++places.behind;
+                return;
+            }
+        }
         const std::uint32_t found = world_.occluder(make_ray(point, to_light), t_max, hit.triangle, hint, layers);
         if (found == kNoTriangle)
             ++places.lit;
@@ -97,6 +125,7 @@ private:
     const PrimaryHits& hits_;
     const LightItem& light_;
     glm::dvec3 light_rel_m_;
+    double source_;
 };
 
 // Rays that go first, along a side. Pixels with other results, or neighbours with other results, get more.
@@ -106,7 +135,7 @@ constexpr std::array<std::uint32_t, 2> kFirst{2, 4};
 
 AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryHits& hits, const LightTruth& middles,
                                       const LightItem& light, const AreaSampling& sampling) const {
-    const AreaTracer tracer(world_->traced, camera, hits, light);
+    const AreaTracer tracer(world_->traced, camera, hits, light, sampling.of_source);
     const glm::ivec2 size(hits.size_px);
     AreaTruth truth;
     truth.lit.assign(hits.count(), -1.0f);
@@ -139,16 +168,35 @@ AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryH
             }
         });
     };
-    trace_where(kFirst[0], [](const std::vector<Places>&, const glm::ivec2&) { return true; });
-    trace_where(kFirst[1], undecided);
+    const auto always = [](const std::vector<Places>&, const glm::ivec2&) { return true; };
+    if (sampling.of_source) {
+        trace_where(kFirst[1], always);
+    } else {
+        trace_where(kFirst[0], always);
+        trace_where(kFirst[1], undecided);
+    }
     trace_where(sampling.side, undecided);
     truth.sampled = sampled;
-    for (std::size_t i = 0; i < hits.count(); ++i) {
-        const Places& places = found[i];
-        if (places.all == 0 || !places.faces || places.seen == 0) continue;
-        truth.lit[i] = static_cast<float>(places.lit) / static_cast<float>(places.seen);
-        truth.area[i] = places.seen == places.all ? PixelArea::whole : PixelArea::partial;
-    }
+    for (std::size_t i = 0; i < hits.count(); ++i) found[i].write(i, truth);
+    return truth;
+}
+
+AreaTruth ReferenceTracer::trace_area(const ConsumerItem& camera, const PrimaryHits& hits,
+                                      std::span<const std::size_t> pixels, const LightItem& light,
+                                      const AreaSampling& sampling) const {
+    constexpr std::size_t kChunk = 16;
+    const AreaTracer tracer(world_->traced, camera, hits, light, sampling.of_source);
+    AreaTruth truth;
+    truth.lit.assign(pixels.size(), -1.0f);
+    truth.area.assign(pixels.size(), PixelArea::unscored);
+    truth.sampled = pixels.size();
+    const auto chunks = static_cast<std::uint32_t>((pixels.size() + kChunk - 1) / kChunk);
+    parallel_rows(chunks, world_->threads, [&](std::uint32_t chunk) {
+        std::uint32_t hint = kNoTriangle;
+        for (std::size_t i = chunk * kChunk; i < std::min(pixels.size(), (chunk + 1) * kChunk); ++i)
+            if (hits.triangle[pixels[i]] != kNoTriangle)
+                tracer.trace(pixels[i], sampling.side, hint).write(i, truth);
+    });
     return truth;
 }
 

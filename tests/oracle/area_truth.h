@@ -17,6 +17,7 @@ namespace gnomon::oracle {
 /// triangle.
 struct AreaSampling {
     std::uint32_t side = 16;
+    bool of_source = false;  // each place's ray goes to a place of its own on the source (source_size()), not its middle
 };
 
 /// Distance from the tangent plane up to which a place is on the same surface, widths of a pixel there.

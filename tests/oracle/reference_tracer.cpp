@@ -74,18 +74,19 @@ PlacedTriangle ReferenceTracer::source_of(std::uint32_t triangle) const {
     return {found.instance, found.first_index / 3};
 }
 
-PrimaryHits ReferenceTracer::trace_primary(const ConsumerItem& consumer) const {
+PrimaryHits ReferenceTracer::trace_primary(const ConsumerItem& consumer, const glm::dvec2& jitter_px) const {
     const TracedWorld& world = world_->traced;
     const std::size_t count = std::size_t{consumer.viewport_px.x} * consumer.viewport_px.y;
     PrimaryHits hits;
     hits.size_px = consumer.viewport_px;
     hits.camera_rel_m = consumer.position_ws_m - world.origin_ws_m();
+    hits.jitter_px = jitter_px;
     hits.triangle.assign(count, kNoTriangle);
     hits.position_rel_m.assign(count, glm::dvec3(0.0));
     hits.normal_ws.assign(count, glm::dvec3(0.0));
     parallel_rows(hits.size_px.y, world_->threads, [&](std::uint32_t row) {
         for (std::uint32_t x = 0; x < hits.size_px.x; ++x) {
-            const PixelRay pixel = pixel_ray(consumer, hits.camera_rel_m, glm::dvec2(x, row));
+            const PixelRay pixel = pixel_ray(consumer, hits.camera_rel_m, glm::dvec2(x, row) + jitter_px);
             const SurfaceHit hit = world.nearest_surface(pixel.ray, pixel.t_min, pixel.t_max);
             if (hit.triangle == kNoTriangle) continue;
             const WorldTriangle& triangle = world.triangles()[hit.triangle];

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gnomon/assets.h"
@@ -26,6 +27,7 @@ struct PlacedTriangle {
 struct PrimaryHits {
     glm::uvec2 size_px{0, 0};
     glm::dvec3 camera_rel_m{0.0};            // relative to the tracer's origin, as all positions here
+    glm::dvec2 jitter_px{0.0};               // from each pixel's centre to the place that it shows; 0: the centre
     std::vector<std::uint32_t> triangle;     // the tracer's triangle number; kNoTriangle: no surface
     std::vector<glm::dvec3> position_rel_m;  // in double, on the triangle's plane
     std::vector<glm::dvec3> normal_ws;       // unit, geometric, on the side that is seen
@@ -69,8 +71,9 @@ public:
     ReferenceTracer& operator=(const ReferenceTracer&) = delete;
 
     /// Finds the nearest front face of visible instances through each pixel centre, between near and far plane.
-    /// Double-sided materials have two front faces. Masked texels do not count.
-    PrimaryHits trace_primary(const ConsumerItem& consumer) const;
+    /// Double-sided materials have two front faces. Masked texels do not count. `jitter_px`: the picture is moved, so
+    /// that pixels show what lies there from their centres.
+    PrimaryHits trace_primary(const ConsumerItem& consumer, const glm::dvec2& jitter_px = glm::dvec2(0.0)) const;
 
     /// Casts one shadow ray per surface in reach. Both faces of casters of the light's layers block.
     /// Masked texels do not block.
@@ -90,6 +93,9 @@ public:
     /// Computes the share of each pixel's area on the seen surface that the light's middle reaches. `hits`: what
     /// `camera` sees. `middles`: trace_light's result for the light.
     AreaTruth trace_area(const ConsumerItem& camera, const PrimaryHits& hits, const LightTruth& middles,
+                         const LightItem& light, const AreaSampling& sampling) const;
+    /// Computes the same for these pixels alone, by all places each: a value per entry of `pixels`.
+    AreaTruth trace_area(const ConsumerItem& camera, const PrimaryHits& hits, std::span<const std::size_t> pixels,
                          const LightItem& light, const AreaSampling& sampling) const;
 
     /// Returns a caster's triangle between the light and the point, at least `least_m` from the point, or kNoTriangle.

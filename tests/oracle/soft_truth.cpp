@@ -30,17 +30,6 @@ glm::dvec2 random_place(std::uint64_t seed) {
     return {static_cast<double>(bits & 0xffffffffULL) * kUnit, static_cast<double>(bits >> 32) * kUnit};
 }
 
-/// From the unit square to the unit disk, equal areas to equal areas (Shirley and Chiu 1997).
-glm::dvec2 on_disk(const glm::dvec2& square) {
-    const glm::dvec2 p = 2.0 * square - 1.0;
-    if (p.x == 0.0 && p.y == 0.0) return p;
-    const bool wide = std::abs(p.x) > std::abs(p.y);
-    const double radius = wide ? p.x : p.y;
-    const double angle_rad = wide ? glm::quarter_pi<double>() * (p.y / p.x)
-                                  : glm::half_pi<double>() - glm::quarter_pi<double>() * (p.x / p.y);
-    return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)};
-}
-
 /// What a pixel's rays found.
 struct Sum {
     std::uint32_t lit = 0, rays = 0;  // of those that leave the surface
@@ -120,6 +109,16 @@ bool undecided(const std::vector<Sum>& few, const glm::uvec2& size_px, const glm
 double source_size(const LightItem& light) {
     if (light.kind == LightKind::directional) return std::tan(static_cast<double>(light.sun_radius_rad));
     return static_cast<double>(light.source_radius_m);
+}
+
+glm::dvec2 on_disk(const glm::dvec2& square) {
+    const glm::dvec2 p = 2.0 * square - 1.0;
+    if (p.x == 0.0 && p.y == 0.0) return p;
+    const bool wide = std::abs(p.x) > std::abs(p.y);
+    const double radius = wide ? p.x : p.y;
+    const double angle_rad = wide ? glm::quarter_pi<double>() * (p.y / p.x)
+                                  : glm::half_pi<double>() - glm::quarter_pi<double>() * (p.x / p.y);
+    return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)};
 }
 
 SoftTruth ReferenceTracer::trace_source(const PrimaryHits& hits, const LightItem& light,

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "tests/oracle/reference_tracer.h"
@@ -10,6 +11,9 @@ namespace gnomon::oracle {
 /// The source's size as shadows take it: Light's radius in metres, or the tangent of a sun's angular radius. 0: a
 /// point.
 double source_size(const LightItem& light);
+
+/// Maps the unit square to the unit disk, equal areas to equal areas (Shirley and Chiu 1997).
+glm::dvec2 on_disk(const glm::dvec2& square);
 
 struct SourceSampling {
     /// The disk is cut into side² parts of equal area, a ray through a random place of each.

@@ -58,6 +58,18 @@ TEST_F(AntialiasedEdges, TakeMiddlesThenMarksThenAreasBeforeTheLightIsRead) {
     EXPECT_NE(all[2].pipelines[0].program, all[0].pipelines[1].program) << "areas, no middles";
 }
 
+TEST_F(AntialiasedEdges, OfRaysTakeAllMiddlesByOneDrawOnceRaysHaveFoundThem) {
+    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.filter = ShadowFilter::exact; });
+    step();
+    ASSERT_THAT(targets_of_light("sun"), ElementsAre("verdicts of maps", "answers of rays", "lit shares",
+                                                     "lit shares, marks", "lit shares", "light sum"));
+    const std::vector<Pass> all = passes_of_light("sun");
+    EXPECT_EQ(all[2].pipelines.size(), 1u);
+    antialias(sun, false);
+    step();
+    EXPECT_THAT(targets_of_light("sun"), ElementsAre("verdicts of maps", "answers of rays", "light sum"));
+}
+
 TEST_F(AntialiasedEdges, CostLightsThatDoNotAskNoPass) {
     step();
     const std::vector<std::string> with = targets_of_light("spot");

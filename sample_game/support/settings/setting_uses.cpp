@@ -15,9 +15,10 @@ bool is_among(std::span<const ShadowFilter> filters, ShadowFilter filter) {
     return std::find(filters.begin(), filters.end(), filter) != filters.end();
 }
 
-bool for_triangles(Settings s, LightKind) {
-    static constexpr std::array kWalked{ShadowFilter::automatic, ShadowFilter::triangles};
-    return is_among(kWalked, s.shadow.filter);
+bool for_area_shares(Settings s, LightKind) {
+    static constexpr std::array kWithShares{ShadowFilter::automatic, ShadowFilter::triangles, ShadowFilter::pcss,
+                                            ShadowFilter::exact, ShadowFilter::exact_soft};
+    return is_among(kWithShares, s.shadow.filter);
 }
 
 bool for_sun(Settings, LightKind kind) { return is_sun(kind); }
@@ -89,7 +90,7 @@ constexpr std::array kBasic{
     SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments or exact_soft"},
 };
 constexpr std::array kQuality{
-    SettingUse{"antialias", for_triangles, "filter automatic or triangles"},
+    SettingUse{"antialias", for_area_shares, "filter automatic, triangles, exact, exact_soft or pcss"},
     SettingUse{"resolution"},
     SettingUse{"caster_faces", for_depths, "a filter other than exact and exact_soft"},
     SettingUse{"layers"},

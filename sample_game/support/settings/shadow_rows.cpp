@@ -64,7 +64,7 @@ constexpr std::array kShadowRows{
     LightSetting{.key = "antialias",
                  .field = "LightShadow::antialias",
                  .values = "on | off",
-                 .meaning = "edges of triangles: the lit share of a pixel, not lit or dark by its middle",
+                 .meaning = "edges: the lit share of a pixel, not lit or dark by its middle",
                  .set = set_switch<Shadow<&S::antialias>>,
                  .get = get_switch<Shadow<&S::antialias>>,
                  .editor = kToggle},

@@ -1,13 +1,12 @@
 // One light over its screen rectangle: its visibility alone. VISIBLE_SHARE, LEAVE_UNDECIDED: as in light.frag.
-// MIDDLES: with the states of edges/middle_state.glsl. AREAS_ALONE: leaves out areas that no edge crosses.
+// MIDDLES: writes states of edges/middle_state.glsl; what they add to shares. AREAS_ALONE: leaves out areas that no edge
+// crosses.
 #include "lighting/gbuffer/gbuffer_read.glsl"
 #include "row.glsl"
 #include "shadow/lookup/light_block.glsl"
 #include "shadow/lookup/visibility.glsl"
-#include VISIBLE_SHARE
-#ifdef MIDDLES
 #include "lighting/edges/middle_state.glsl"
-#endif
+#include VISIBLE_SHARE
 layout(location = 0) out float visibility_out;
 
 void main() {
@@ -23,9 +22,7 @@ void main() {
 #endif
     visibility_out = visible;
 #ifdef MIDDLES
-#ifndef LEAVE_UNDECIDED
-    visibility_out += kUndecided;
-#endif
+    visibility_out += MIDDLES;
     if (is_unreached(surface.geometric_normal, incoming)) visibility_out = kUnreached;
 #endif
 }

@@ -6,6 +6,9 @@ layout(binding = kVerdictUnit) uniform usampler2D verdicts;   // lighting/trace/
 layout(binding = kAnswerUnit) uniform sampler2D answers;     // results of the rays, in the order of their list
 #include "lighting/trace/ray_list_layout.glsl"
 
+// Returns whether the map was not certain of the pixel.
+bool is_listed(ivec2 pixel) { return texelFetch(verdicts, pixel, 0).x >= kListed; }
+
 float found_visibility(ivec2 pixel) {
     uint verdict = texelFetch(verdicts, pixel, 0).x;
     float answer = texelFetch(answers, list_texel(int(max(verdict, kListed) - kListed), textureSize(answers, 0).x), 0).x;

@@ -34,6 +34,7 @@ std::vector<std::string> program_defines(const ShaderKey& row) {
     defines.push_back(flag("SHADOW_FADES", row.fades));
     defines.push_back(flag("SHADOW_MANUAL_BIAS", row.manual_bias));
     defines.push_back(flag("SHADOW_ANTIALIAS", row.antialias));
+    defines.push_back(flag("SHADOW_SPREAD", row.spread));
     defines.push_back(file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"));
     const std::string reading(map_reading(row));
     defines.push_back(file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_" + reading + ".glsl"));
@@ -48,13 +49,14 @@ std::vector<std::string> shared_defines(const SharedRow& row) {
             file("SHADOW_CUBE_MAP", "shadow/lookup/maps/cube_shared.glsl"),
             file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"),
             flag("SHADOW_ANTIALIAS", row.antialias),
+            flag("SHADOW_SPREAD", row.antialias),
             flag("SHADOW_LINEAR_TAPS", row.linear_taps), "SHADOW_REACH_TEXEL " + row.reach_texel};
 }
 
 std::string row_glsl(const ShaderKey& row) {
     if (row.filter_file.empty()) return {};
     std::string text;
-    if (row.footprint || row.triangles || row.rays) text += "#include \"common/camera_block.glsl\"\n";
+    if (row.footprint || row.triangles || row.rays || row.spread) text += "#include \"common/camera_block.glsl\"\n";
     for (const std::string_view file : {row.kind_file, row.filter_file})
         text += "#include \"" + std::string(file) + "\"\n";
     if (row.moments) text += "#include \"shadow/filters/prefiltered/without_bleeding.glsl\"\n";

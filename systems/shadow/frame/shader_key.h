@@ -20,7 +20,8 @@ struct ShaderKey {
     bool rays = false;         // traces rays to the casters' triangles from surfaces with exact positions
     bool ray_masks = false;    // some of the triangles read by `rays` or `triangles` are alpha-masked
     bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
-    bool antialias = false;    // visibility is a share of the pixel's area, by `triangles`
+    bool antialias = false;    // visibility is a share of the pixel's area: AreaShares::marked
+    bool spread = false;       // taps and rays of a source begin all over the pixel's area: AreaShares::spread
     bool operator==(const ShaderKey&) const = default;
 };
 

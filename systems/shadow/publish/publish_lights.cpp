@@ -197,6 +197,13 @@ CameraRecord camera_record(const ConsumerItem& c) {
 
 namespace {
 
+/// Sets how a light's row finds the lit shares of pixels' areas.
+void set_area_shares(const LightItem& light, ShadowFilter filter, ShaderKey& row) {
+    const AreaShares shares = filter_row(filter).area_shares;
+    row.antialias = light.shadow.antialias && shares == AreaShares::marked;
+    row.spread = light.shadow.antialias && shares == AreaShares::spread;
+}
+
 /// Publishes lights that use rays. Their maps, if any, classify pixels first. The maps are left out for cameras that
 /// they are not fitted to: these may see what is not in them.
 void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const ConsumerItem& consumer,
@@ -213,6 +220,7 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
                    .filter_file = filter_row(request.map.filter).file,
                    .rays = true,
                    .ray_masks = static_cast<bool>(in.rays.masks)};
+        set_area_shares(light, request.map.filter, out.row);
         out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
@@ -247,7 +255,9 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     out.plain.accuracy.filter = kCheapestFilter;
     add_view(light, in.drawn, v, out.plain.accuracy);
     out.row.ray_masks = out.row.triangles && in.masked;
-    out.row.antialias = out.row.triangles && light.shadow.antialias;
+    // A map that serves one tap has none.
+    if (out.row.filter_file == filter_row(request.map.filter).file)
+        set_area_shares(light, request.map.filter, out.row);
     if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;

@@ -61,6 +61,11 @@ struct RayRow {
     ShadowFilter without_size;  // replacement where the light's source is a point
 };
 
+/// Way of a filter to the lit share of a pixel's area (LightShadow::antialias).
+/// - marked: pixels that an edge may cross are marked, and looked up once more (systems/lighting/edge_pass.h)
+/// - spread: taps and rays to a source with a size begin all over the area
+enum class AreaShares : std::uint8_t { none, marked, spread };
+
 /// Filter of a depth map. A new one needs a file in shaders/shadow/filters, an enumerator and a row
 /// (docs/contributors/adding_a_filter.md).
 struct FilterRow {
@@ -83,6 +88,7 @@ struct FilterRow {
     /// Blurred moments of distances beside the map (shaders/shadow/passes/prefilter). nullptr: none.
     const MomentRow* moments = nullptr;
     const RayRow* rays = nullptr;  // rays beside the map; nullptr: none
+    AreaShares area_shares = AreaShares::none;
 };
 
 /// Default filter, and meaning of ShadowFilter::automatic unless the target chooses another: the row that measures

@@ -53,12 +53,12 @@ struct HalfCovered {
         LightTruth middles;
         AreaTruth truth;
     };
-    Traced trace(const LightItem& light) const {
+    Traced trace(const LightItem& light, const AreaSampling& sampling = {}) const {
         const ReferenceTracer tracer = scene.tracer();
         const ConsumerItem camera = scene.view_from_above(kSide_px, 4.0);
         Traced traced{tracer.trace_primary(camera), {}, {}};
         traced.middles = tracer.trace_light(traced.hits, light, true);
-        traced.truth = tracer.trace_area(camera, traced.hits, traced.middles, light, {});
+        traced.truth = tracer.trace_area(camera, traced.hits, traced.middles, light, sampling);
         return traced;
     }
 };
@@ -97,6 +97,42 @@ TEST(AreaTruth, UnderALampTheShadowIsLarger) {
     expect_shares(world, world.scene.spot({0.0, 12.0, 0.0}, {0.0, 1.0, 0.0}, 0.9), 12.0 / 9.0);
 }
 
+/// Returns the share of the unit disk where x is below `to`.
+double disk_below(double to) {
+    const double x = std::clamp(to, -1.0, 1.0);
+    return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::acos(-1.0);
+}
+
+TEST(AreaTruth, OfASourceIsTheShareOfItsDiskWhereThatIsManyPixelsWide) {
+    constexpr double kHeight_m = 5.0, kWide_px = 12.0, kMostOfDisk = 0.05, kMeanOfDisk = 0.01;
+    for (const double angle_rad : {0.0, 0.8, 2.5}) {
+        SCOPED_TRACE(angle_rad);
+        const HalfCovered world(angle_rad, 0.013, kHeight_m);
+        LightItem sun = world.scene.sun({0.0, 1.0, 0.0});
+        sun.sun_radius_rad = static_cast<float>(std::atan(kWide_px * kPixel_m / kHeight_m));
+        const auto soft = world.trace(sun, {.of_source = true}), hard = world.trace(sun);
+        double error = 0.0, hard_error = 0.0;
+        for (std::size_t i = 0; i < soft.hits.count(); ++i) {
+            const glm::dvec3 p = soft.hits.position_rel_m[i];
+            const double beyond_m = glm::dot(world.across, glm::dvec2(p.x, -p.z)) - world.off_m;
+            const double expected = disk_below(beyond_m / (kWide_px * kPixel_m));
+            const double off = std::abs(static_cast<double>(soft.truth.lit[i]) - expected);
+            EXPECT_LT(off, kMostOfDisk) << "beyond by " << beyond_m / kPixel_m << " px";
+            error += off;
+            hard_error += std::abs(static_cast<double>(hard.truth.lit[i]) - expected);
+        }
+        const auto pixels = static_cast<double>(soft.hits.count());
+        EXPECT_LT(error / pixels, kMeanOfDisk);
+        EXPECT_GT(hard_error / pixels, 5.0 * kMeanOfDisk) << "the control: rays to the middle alone";
+    }
+}
+
+TEST(AreaTruth, OfASourceWithoutASizeIsThatOfItsMiddleToTheBit) {
+    const HalfCovered world(0.8, 0.013, 5.0);
+    const LightItem sun = world.scene.sun({0.0, 1.0, 0.0});
+    EXPECT_EQ(world.trace(sun, {.of_source = true}).truth.lit, world.trace(sun).truth.lit);
+}
+
 TEST(AreaTruth, WithoutCasterNoPixelIsCrossed) {
     AnalyticScene scene;
     scene.place_floor(40.0);
@@ -128,6 +164,45 @@ TEST(AreaTruth, WhereAnotherSurfaceShowsInAPixelItIsPartial) {
     EXPECT_EQ(std::count(truth.area.begin(), truth.area.end(), PixelArea::unscored), 0);
     // What shows of the floor is lit, and of the box, too: the crease is no shadow's edge.
     EXPECT_EQ(*std::min_element(truth.lit.begin(), truth.lit.end()), 1.0f);
+}
+
+TEST(AreaTruth, OfAFewPixelsIsThatOfThePicture) {
+    const HalfCovered world(0.5, 0.31, 3.0);
+    const LightItem light = world.scene.lamp({0.0, 12.0, 0.0});
+    const auto traced = world.trace(light);
+    std::vector<std::size_t> crossed;
+    for (std::size_t i = 0; i < traced.hits.count(); ++i)
+        if (traced.truth.lit[i] > 0.0f && traced.truth.lit[i] < 1.0f) crossed.push_back(i);
+    ASSERT_GE(crossed.size(), kSide_px);
+    const AreaTruth few = world.scene.tracer().trace_area(world.scene.view_from_above(kSide_px, 4.0), traced.hits, crossed, light, {});
+    for (std::size_t k = 0; k < crossed.size(); ++k) {
+        EXPECT_EQ(few.lit[k], traced.truth.lit[crossed[k]]);
+        EXPECT_EQ(few.area[k], PixelArea::whole);
+    }
+}
+
+TEST(AreaTruth, JitteredByAPixelItIsThatOfTheNeighbour) {
+    const HalfCovered world(0.5, 0.31, 3.0);
+    const ReferenceTracer tracer = world.scene.tracer();
+    const ConsumerItem camera = world.scene.view_from_above(kSide_px, 4.0);
+    const LightItem light = world.scene.lamp({0.0, 12.0, 0.0});
+    const PrimaryHits still = tracer.trace_primary(camera), moved = tracer.trace_primary(camera, {1.0, 0.0});
+    std::vector<std::size_t> pixels, beside;
+    for (std::size_t i = 0; i < still.count(); ++i) {
+        if (i % kSide_px + 1 == kSide_px) continue;
+        pixels.push_back(i);
+        beside.push_back(i + 1);
+    }
+    const AreaTruth of_moved = tracer.trace_area(camera, moved, pixels, light, {}),
+                    of_still = tracer.trace_area(camera, still, beside, light, {}),
+                    unmoved = tracer.trace_area(camera, still, pixels, light, {});
+    std::size_t same = 0, same_unmoved = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        same += of_moved.lit[k] == of_still.lit[k];
+        same_unmoved += of_moved.lit[k] == unmoved.lit[k];
+    }
+    EXPECT_EQ(same, pixels.size());
+    EXPECT_LT(same_unmoved + kSide_px, pixels.size());  // control: the edge has moved
 }
 
 TEST(AreaTruth, YesOrNoIsOffByAQuarterOnAverage) {

@@ -39,6 +39,7 @@ int sheet_verdict(SheetPlace place, bool receiver_casts) {
 // Returns how far toward the light anything may stand before a receiver, as a share of that way (sun: metres). It
 // stands no farther than what its texel shows, or where a sheet ends there, and what sheets depart by from that.
 float sheet_reach(SheetPlace place) {
+    if (place.is_open) return 0.0;
     if (!place.is_known) return kNoReach;
     vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
     float shown = max(first_depth(place), bounds.x);

@@ -4,7 +4,7 @@
 
 // Returns the share of the light that one ray finds. `normal`: of the surface; unused.
 float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
-    return lit_along(position_ca, way_to_light(position_ca), reach, error_m, receiver);
+    return lit_along(position_ca, vec3(0.0), way_to_light(position_ca), reach, error_m, receiver);
 }
 
 #if SHADOW_SHEETS
@@ -22,4 +22,8 @@ float uncertain_reach(vec3 position_ca, float error_m) {
 #else
 #include "shadow/filters/exact/no_map.glsl"
 #endif
+#ifdef AREAS_ALONE
+#include "shadow/filters/exact/area_rays.glsl"
+#else
 #include "shadow/filters/exact/classify_or_trace.glsl"
+#endif

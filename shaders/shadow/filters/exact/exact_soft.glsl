@@ -3,9 +3,12 @@
 #include "shadow/filters/exact/shadow_ray.glsl"
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
+#if SHADOW_SPREAD
+#include "shadow/filters/area_spread.glsl"
+#endif
 
 // Returns the share of rays that reach the light, among rays that leave the surface along `normal`. It ignores `reach`,
-// which bounds the ray to the light's middle alone.
+// which bounds the ray to the light's middle alone. SHADOW_SPREAD: each ray begins at a place of its own.
 float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
     dvec3 middle = way_to_light(position_ca);
     vec3 toward = normalize(vec3(middle));
@@ -13,12 +16,19 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
     vec3 right = normalize(cross(toward, helper)), up = cross(toward, right);
     vec2 seed = cell_seed(vec3(position_ca));
     int lit = 0, rays = 0;
+    vec3 beside_m = vec3(0.0);
+#if SHADOW_SPREAD
+    PixelArea area = pixel_area(vec3(position_ca), normal);
+#endif
     for (int i = 0; i < light.filtering.y; ++i) {
         vec2 at = light.radiance.w * stratified_disk(seed, i, light.filtering.y);
-        dvec3 along = middle + dvec3(right * at.x + up * at.y);
+#if SHADOW_SPREAD
+        beside_m = spread_place(area, i);
+#endif
+        dvec3 along = middle + dvec3(right * at.x + up * at.y) - (kIsSun ? dvec3(0.0) : dvec3(beside_m));
         if (!(dot(vec3(along), normal) > 0.0)) continue;
         ++rays;
-        lit += int(lit_along(position_ca, along, kNoEnd, error_m, receiver));
+        lit += int(lit_along(position_ca, beside_m, along, kNoEnd, error_m, receiver));
     }
     return rays > 0 ? float(lit) / float(rays) : 0.0;
 }

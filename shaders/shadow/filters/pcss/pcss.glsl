@@ -35,6 +35,27 @@ const int kRimTaps = 8;
 // Taps per texel of the penumbra's radius: the disk has more texels, but a straight edge crosses no more of its rings.
 const float kTapsPerTexel = 4.0;
 
+#if SHADOW_SPREAD
+#include "shadow/filters/area_spread.glsl"
+
+// Moves a tap's receiver along its plane.
+void move_receiver(vec3 beside_m, inout ShadowPoint point, inout vec2 place) {
+    vec2 moved = texels_moved(point, beside_m);
+    place += moved;
+    point.reference += dot(point.slope, moved);
+}
+
+// Greatest radius of what votes blur: votes that all agree are a whole step away.
+const float kMostVoted_texel = kTexelPerVotes / kDiskStep;
+
+// Returns the radius of the pixel's area on the map, texels: that of a disk with the same variance.
+float area_radius_texel(ShadowPoint point) {
+    PixelArea area = pixel_area(point.position_ca, point.normal);
+    vec2 right = texels_moved(point, area.right), up = texels_moved(point, area.up);
+    return sqrt((dot(right, right) + dot(up, up)) / 6.0);
+}
+#endif
+
 // Returns a place of the disk as texels from the receiver, at depth 1 of the cone.
 vec2 on_map(ShadowPoint point, vec2 disk) {
     float stretch = 1.0 / (source_stretch(point.tangent) + 1.0);
@@ -85,10 +106,18 @@ Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, floa
 float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float before, float from, float to, bool clear_inside) {
     float lit = 0.0;
     float known = 0.0;
+#if SHADOW_SPREAD
+    PixelArea area = pixel_area(point.position_ca, point.normal);
+#endif
     int i = taps - 1;
     do {
         vec2 disk = stratified_disk(seed, i, taps);
-        float stands = stands_before(point, place, before * on_map(point, disk));
+        ShadowPoint tap = point;
+        vec2 tap_place = place;
+#if SHADOW_SPREAD
+        move_receiver(spread_place(area, i), tap, tap_place);
+#endif
+        float stands = stands_before(tap, tap_place, before * on_map(point, disk));
         if (stands >= to) continue;
         known += 1.0;
         lit += stands > max(from, before * min(length(disk), kSameCaster)) ? 0.0 : 1.0;
@@ -121,7 +150,11 @@ float shadow_filter(ShadowPoint point) {
     float radius_texel = min(found.before.x, reach) * texels;
     bool narrow = !two && radius_texel < kLeastPenumbra_texel;
     blurred_texel = min(max(found.before.x, found.before.y), reach) * source_stretch(point.tangent) * point.source_texel;
+#if SHADOW_SPREAD
+    float lit = lit_by_votes(point, min(length(vec2(radius_texel, area_radius_texel(point))), kMostVoted_texel), narrow);
+#else
     float lit = lit_by_votes(point, radius_texel, narrow);
+#endif
     if (!narrow) lit = 1.0;
     int layer = 0;
     if (!narrow) do {
