@@ -29,8 +29,8 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const std::size_t by_rays = (kinds + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters);
     const std::size_t with_sheets = 2 * kinds + 4 * by_rays;
     constexpr std::size_t kOutputs = 4, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
-    // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not; catchers, coloured or not, and
-    // their shares; luminance, and tone curve with a background or without.
+    // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not. Catchers, coloured or not, and
+    // their shares. Luminance, and tone curve with a background or without.
     constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3;
     // Those by a pixel's footprint, too, and those of masked casters.
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays;
