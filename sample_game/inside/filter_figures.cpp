@@ -29,7 +29,8 @@ FilterFigures figures_of(ShadowFilter filter) {
                           .sampler = sampler_text(row.reading),
                           .extent = static_cast<FilterExtent>(row.width),
                           .prefiltered = row.moments != nullptr,
-                          .keeps_depths = !row.storage.conservative_bounds};
+                          .keeps_depths = !row.storage.conservative_bounds,
+                          .antialiases = row.area_shares != shadow::AreaShares::none};
     if (row.moments) {
         figures.has_exponent = row.moments->bits_32.usual_exponent > 0.0f;
         figures.has_second = row.moments->usual_negative_exponent > 0.0f;

@@ -15,11 +15,7 @@ bool is_among(std::span<const ShadowFilter> filters, ShadowFilter filter) {
     return std::find(filters.begin(), filters.end(), filter) != filters.end();
 }
 
-bool for_area_shares(Settings s, LightKind) {
-    static constexpr std::array kWithShares{ShadowFilter::automatic, ShadowFilter::triangles, ShadowFilter::pcss,
-                                            ShadowFilter::exact, ShadowFilter::exact_soft};
-    return is_among(kWithShares, s.shadow.filter);
-}
+bool for_area_shares(Settings s, LightKind) { return row_of(s).antialiases; }
 
 bool for_sun(Settings, LightKind kind) { return is_sun(kind); }
 bool for_point(Settings, LightKind kind) { return is_point(kind); }

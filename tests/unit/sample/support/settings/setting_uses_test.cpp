@@ -55,7 +55,10 @@ TEST(SettingUses, DependOnTheKindOfLight) {
 TEST(SettingUses, DependOnTheFilterAndOnOtherSettings) {
     EXPECT_FALSE(is_idle("antialias", LightKind::point));
     EXPECT_FALSE(is_idle("antialias", LightKind::spot, {"filter=triangles"}));
-    EXPECT_TRUE(is_idle("antialias", LightKind::point, {"filter=exact"}));
+    for (const char* filter : {"filter=exact", "filter=exact_soft", "filter=pcss"})
+        EXPECT_FALSE(is_idle("antialias", LightKind::point, {filter})) << filter;
+    for (const char* filter : {"filter=hard", "filter=pcf_grid", "filter=evsm4", "filter=pcss_moments"})
+        EXPECT_TRUE(is_idle("antialias", LightKind::point, {filter})) << filter;
     EXPECT_TRUE(is_idle("filter_size", LightKind::point));
     EXPECT_FALSE(is_idle("filter_size", LightKind::point, {"filter=pcf_grid"}));
     EXPECT_FALSE(is_idle("filter_size", LightKind::point, {"filter=vsm"}));
