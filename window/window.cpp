@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/image/encode_image.h"
+#include "engine/image/srgb.h"
 #include "engine/platform/context.h"
 
 namespace gnomon {
@@ -66,13 +67,6 @@ GLuint Window::State::framebuffer_of(GLuint picture) {
 
 namespace {
 
-double as_light(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-double encoded_of(double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-}
-
 /// Divides the light of premultiplied sRGB colours by their alpha; without alpha they become black.
 void divide_by_alpha(std::span<std::uint8_t> rgba) {
     constexpr double kMost = 255.0;
@@ -80,8 +74,8 @@ void divide_by_alpha(std::span<std::uint8_t> rgba) {
         const double alpha = rgba[i + 3] / kMost;
         if (rgba[i + 3] == 255) continue;
         for (std::size_t c = i; c < i + 3; ++c) {
-            const double light = alpha > 0.0 ? std::min(as_light(rgba[c] / kMost) / alpha, 1.0) : 0.0;
-            rgba[c] = static_cast<std::uint8_t>(std::lround(kMost * encoded_of(light)));
+            const double light = alpha > 0.0 ? std::min(image::light_of_srgb(rgba[c] / kMost) / alpha, 1.0) : 0.0;
+            rgba[c] = static_cast<std::uint8_t>(std::lround(kMost * image::srgb_of_light(light)));
         }
     }
 }

@@ -1,14 +1,13 @@
 #include "systems/debug/shown_scale.h"
 
-#include <cmath>
 #include <cstring>
+
+#include "engine/image/srgb.h"
 
 namespace gnomon::debug {
 
 glm::vec4 scale_colour(const glm::vec3& srgb, float value) {
-    // IEC 61966-2-1.
-    const auto linear = [](float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); };
-    return {linear(srgb.r), linear(srgb.g), linear(srgb.b), value};
+    return {image::light_of_srgb(srgb.r), image::light_of_srgb(srgb.g), image::light_of_srgb(srgb.b), value};
 }
 
 Drawing lookup_drawing(std::uint32_t light, const ShownScale& scale) {

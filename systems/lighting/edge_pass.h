@@ -24,7 +24,7 @@ public:
     EdgePass& operator=(const EdgePass&) = delete;
 
     /// Creates or frees all, for pictures of that size. Returns false without room; lights then take the areas of all
-    /// pixels.
+    /// pixels, those by rays the middles.
     bool provide(bool wanted, glm::uvec2 size_px);
     bool is_there() const { return static_cast<bool>(target_); }
 

@@ -18,6 +18,7 @@ float shadow_traced(dvec3 position_ca, vec3 normal, float error_m, uvec2 receive
     for (int i = 0; i < kRayPlaces; ++i) {
         vec2 at = place_of_ray(i);
         vec3 beside_m = right * at.x + up * at.y, place_ca = middle_ca + beside_m;
+        // A unit for the middle's rounding, and one for the sum's.
         float rounded_m = error_m + 2.0 * kUnitRoundoff * length(place_ca);
         dvec3 along = way_to_light(position_ca + dvec3(beside_m));
         lit += int(lit_along(position_ca, beside_m, along, uncertain_reach(place_ca, rounded_m), error_m, receiver));
