@@ -103,7 +103,8 @@ bool FrameSystem::record_picture(const shadow::ShadowFrame& shadows, const Frame
         has_picture_ = !shadows.inputs.empty() &&
                        lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                          {settings.exposure_ev, settings.programs_per_frame, measure_exposure,
-                                          sample_depths, shadows_->maps().room(), jitter_px, settings.transparent},
+                                          sample_depths, shadows_->maps().room(), jitter_px, settings.transparent,
+                                          settings.noise_frame + samples_->number()},
                                          commands_, outcome_);
         if (!(outcome_.failures == shown_failures_)) samples_->restart();
         shown_failures_ = outcome_.failures;

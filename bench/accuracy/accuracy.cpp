@@ -1,7 +1,9 @@
 #include "bench/accuracy/accuracy.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
 
 #include "bench/accuracy/edge_error_bounds.h"
 #include "bench/accuracy/surface_mismatch.h"
@@ -46,6 +48,27 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
         accuracy.lights.push_back(std::move(light));
         indices.push_back(i);
     }
+    return std::nullopt;
+}
+
+/// Adds the visibility of more frames with other noise, and divides: the mean of all.
+std::optional<Error> average_noise(Stage& stage, std::uint32_t rounds, const std::vector<std::uint32_t>& indices,
+                                   Accuracy& accuracy) {
+    std::vector<float> more;
+    for (std::uint32_t round = 1; round < rounds; ++round) {
+        stage.set_noise_frame(round);
+        stage.run_frame();
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            std::vector<float>& sum = accuracy.lights[k].measured;
+            if (!stage.frame().read_visibility(indices[k], more) || more.size() != sum.size())
+                return Error{"visibility of light '" + accuracy.lights[k].report.name + "' cannot be read",
+                             accuracy.scene, "", "bench.visibility"};
+            std::transform(sum.begin(), sum.end(), more.begin(), sum.begin(), std::plus<>());
+        }
+    }
+    stage.set_noise_frame(0);
+    for (LightAccuracy& light : accuracy.lights)
+        for (float& visible : light.measured) visible /= static_cast<float>(rounds);
     return std::nullopt;
 }
 
@@ -142,10 +165,11 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     }
 }
 
-void time_lights(Stage& stage, std::uint32_t frames, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
+void time_lights(Stage& stage, const AccuracyOptions& options, const std::vector<std::uint32_t>& indices,
+                 Accuracy& accuracy) {
     std::vector<std::vector<double>> gpu_us(indices.size()), cpu_us(indices.size());
     stage.set_economy(false);
-    for (std::uint32_t i = 0; i < frames + kTimingLag; ++i) {
+    for (std::uint32_t i = 0; i < options.timed_frames + kTimingLag; ++i) {
         stage.run_frame();
         if (i < kTimingLag) continue;
         for (std::size_t k = 0; k < indices.size(); ++k) {
@@ -157,8 +181,8 @@ void time_lights(Stage& stage, std::uint32_t frames, const std::vector<std::uint
     std::vector<float> redrawn;
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];
-        light.redrawn_differs = light.measured.size();
-        if (stage.frame().read_visibility(indices[k], redrawn) && redrawn.size() == light.measured.size())
+        light.redrawn_differs = options.noise_rounds > 1 ? 0 : light.measured.size();
+        if (options.noise_rounds <= 1 && stage.frame().read_visibility(indices[k], redrawn) && redrawn.size() == light.measured.size())
             light.redrawn_differs = count_differing(light.measured, redrawn);
         light.gpu_us = spread_of(gpu_us[k]);
         light.cpu_us = spread_of(cpu_us[k]);
@@ -178,8 +202,10 @@ Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options) 
     if (!stage.frame().snapshot().consumers.empty())
         accuracy.size_px = stage.frame().snapshot().consumers.front().viewport_px;
     if (auto error = read_lights(stage, accuracy, indices)) return *error;
+    if (options.noise_rounds > 1)
+        if (auto error = average_noise(stage, options.noise_rounds, indices, accuracy)) return *error;
     trace_truth(stage, options, indices, accuracy);
-    if (options.timed_frames > 0) time_lights(stage, options.timed_frames, indices, accuracy);
+    if (options.timed_frames > 0) time_lights(stage, options, indices, accuracy);
     accuracy.gl_complaints = stage.gl_complaints();
     return accuracy;
 }

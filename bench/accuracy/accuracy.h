@@ -55,7 +55,8 @@ struct LightAccuracy {
     std::optional<SoftAccuracy> soft;   // accuracy about a source with a size; empty: the light has none
     std::optional<AreaAccuracy> area;   // empty: AccuracyOptions::area_side is 0
     Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
-    std::size_t redrawn_differs = 0;    // pixels that changed when every view was drawn again; must be 0
+    /// Pixels that changed when every view was drawn again; must be 0. Not counted for a mean of noise_rounds.
+    std::size_t redrawn_differs = 0;
 };
 
 struct Accuracy {
@@ -72,6 +73,7 @@ struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_edges = false;         // edges are judged, by a square of rays at each, which takes longer than all else
     std::uint32_t area_side = 0;     // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
+    std::uint32_t noise_rounds = 1;  // judges the mean of frames with so many numbers (FrameSettings::noise_frame)
     double telling = 1.0;            // factor on predicted texels, see EdgeBounds::at()
     double stating = 1.0;  // factor on the stated width of what is resolved; below 1 shows how a broken one looks
     double wished = 1.0;   // factor on max_error_px, see EdgeBounds::promised()

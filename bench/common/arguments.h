@@ -25,7 +25,7 @@ struct Arguments {
     StageOptions stage;
     std::vector<std::string> scenes, against, visibility;
     std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
-    std::uint32_t repeat = 9, rounds = 5, area_side = 0;
+    std::uint32_t repeat = 9, rounds = 5, area_side = 0, noise_rounds = 1;
     StabilityOptions stability;
     double step_px = EdgeFlickerOptions{}.step_px;
     std::string plot, drawings, filters, rows, markdown;

@@ -67,6 +67,11 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     command.add_option("--out", arguments.out, "with --sweep: folder of the report, and of what it goes on from")
         ->capture_default_str();
     add_area(command, arguments);
+    command
+        .add_option("--noise-rounds", arguments.noise_rounds,
+                    "judge the mean of so many frames, each with its own noise, as a still picture's samples have")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
     command.add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
     command.add_option("--filters", arguments.rows,
                        "cost and error of rows of the filter table: all, or part of a name");

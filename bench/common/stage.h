@@ -58,6 +58,7 @@ public:
     void show_shadows(bool on) { settings_.shadows = on; }
     void use_rays(bool on) { settings_.rays = on; }
     void set_size(glm::uvec2 size_px) { settings_.viewport_px = size_px; }
+    void set_noise_frame(std::uint32_t frame) { settings_.noise_frame = frame; }
     void set_economy(bool on);
     /// Applies "KEY=VALUE" to every light with a shadow. Errors: "set.*".
     std::optional<Error> apply_setting(const std::string& key_value);

@@ -259,6 +259,10 @@ struct FrameSettings {
     /// their mean. Once all are there, run() draws only that mean. Each change begins with the pixel's middle again.
     /// Default: that alone. Debug views have one sample.
     std::uint32_t still_samples = 1;
+    /// Number of the frame, for filters with random taps or rays; see View::noise_frame (gnomon/shadows.h). Samples of
+    /// a still picture count on from it by themselves. 0: the same pattern in every frame. Set it where pictures are
+    /// averaged outside; each change of it begins still_samples anew.
+    std::uint32_t noise_frame = 0;
     /// Smooth stair-steps of edges by what the picture itself shows, while it has fewer than 8 samples per pixel.
     bool smooth_edges = false;
     /// Draw nothing behind the surfaces, for a picture to be laid over another one (docs/how-to/compositing.md). Its

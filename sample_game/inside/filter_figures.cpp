@@ -30,7 +30,8 @@ FilterFigures figures_of(ShadowFilter filter) {
                           .extent = static_cast<FilterExtent>(row.width),
                           .prefiltered = row.moments != nullptr,
                           .keeps_depths = !row.storage.conservative_bounds,
-                          .antialiases = row.area_shares != shadow::AreaShares::none};
+                          .antialiases = row.area_shares != shadow::AreaShares::none,
+                          .random = row.random};
     if (row.moments) {
         figures.has_exponent = row.moments->bits_32.usual_exponent > 0.0f;
         figures.has_second = row.moments->usual_negative_exponent > 0.0f;

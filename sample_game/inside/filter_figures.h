@@ -20,6 +20,7 @@ struct FilterFigures {
     bool has_exponent = false, has_second = false;  // moments of a warped distance; of a second warp, too
     bool keeps_depths = true;                       // false: its maps are bounds of depths
     bool antialiases = false;                       // LightShadow::antialias counts
+    bool random = false;                            // its taps or rays differ by a seed
 };
 
 /// Returns the figures of a filter; of `automatic`, those of the filter that it usually is.

@@ -129,6 +129,7 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     consumer_views.push_back(static_cast<std::uint32_t>(index));
     consumer_layers.push_back({view.cast_layers, view.receive_layers});
     state.wants_mask = view.wants_mask;
+    state.noise_frame = view.noise_frame;
     if (!view.wants_mask) return;
     state.failure = embed::take_textures(*device, view, state);
     if (state.failure.empty()) return;
@@ -156,7 +157,8 @@ void Shadows::State::record_masks(ViewGroup& group) {
     for (std::size_t c = 0; c < group.views.size() && c < frame.inputs.size(); ++c) {
         ViewState& view = *views[group.views[c]];
         if (!view.wants_mask || !view.failure.empty()) continue;
-        view.mask.record({frame.inputs[c], group.scene(), gpu, view.picture, view.layers}, commands, group.outcome);
+        view.mask.record({frame.inputs[c], group.scene(), gpu, view.picture, view.layers, view.noise_frame}, commands,
+                         group.outcome);
         view.failure = code(group.outcome.failure);
         if (group.outcome.failure != gl::Failure::none) worst = group.outcome.failure;
     }
@@ -172,7 +174,7 @@ void Shadows::State::record_lookups(const ViewGroup& group) {
         if (!view.table)
             view.table = std::make_unique<lookup::LookupTable>(*device, bindings_of(*options.lookup),
                                                                rows_of(*options.lookup, device->info()));
-        view.has_table = view.table->update(frame.inputs[c], gpu, commands);
+        view.has_table = view.table->update(frame.inputs[c], gpu, commands, view.noise_frame);
     }
 }
 

@@ -29,6 +29,7 @@ struct ViewState {
     std::unique_ptr<lookup::LookupTable> table;  // null: ShadowsOptions::lookup is empty
     std::vector<std::uint32_t> layers;           // index of a light per layer
     bool wants_mask = true;
+    std::uint32_t noise_frame = 0;
     bool has_table = false;  // it was written in the last render()
     std::string_view failure;
 };

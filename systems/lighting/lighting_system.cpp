@@ -175,7 +175,7 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
     put_record(uniform_scratch_, exposure_offset_, exposure);
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const std::uint32_t offset = lights_offset_ + i * light_stride_;
-        put_record(uniform_scratch_, offset, inputs.lights[i].record);
+        put_record(uniform_scratch_, offset, shadow::in_round(inputs.lights[i].record, settings.noise_round));
         const glm::vec4 radiance = in_picture(inputs.lights[i].record.radiance, range.per_radiance);
         put_record(uniform_scratch_, offset + offsetof(shadow::LightRecord, radiance), radiance);
     }

@@ -40,6 +40,7 @@ struct LightingSettings {
     std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // limit of KeptVisibility, over all pictures
     glm::dvec2 jitter_px{0.0};  // from a pixel's middle to the place that it shows, each within 0.5
     bool transparent = false;   // nothing is drawn behind all surfaces; the picture's alpha is its coverage
+    std::uint32_t noise_round = 0;  // shadow::in_round()
 };
 
 /// Deferred lighting: surfaces, a pass per light, shadow catchers, blended surfaces, exposure. A light's pass is
@@ -124,7 +125,7 @@ private:
     };
     void plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                      const LightingSettings& settings);
-    void plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces, LightPass& pass);
+    void plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces, std::uint32_t noise_round, LightPass& pass);
     std::uint64_t surfaces_signature(const SceneSnapshot& scene) const;
     void bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const;
     void record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list);

@@ -139,7 +139,9 @@ gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, s
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
 }
 
-void MaskPass::upload(const shadow::LightingInputs& inputs, const DepthPicture& picture, gl::CommandList& list) {
+void MaskPass::upload(const MaskInputs& in, gl::CommandList& list) {
+    const shadow::LightingInputs& inputs = in.inputs;
+    const DepthPicture& picture = in.picture;
     const shadow::CameraRecord camera = with_lens(inputs.camera, picture);
     const PictureLens& lens = picture.lens;
     ImportRecord record;
@@ -159,7 +161,7 @@ void MaskPass::upload(const shadow::LightingInputs& inputs, const DepthPicture& 
         put_record(bytes_, sample * sample_stride_ + import_offset_, record);
     }
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
-        put_record(bytes_, lights_offset_ + i * light_stride_, inputs.lights[i].record);
+        put_record(bytes_, lights_offset_ + i * light_stride_, shadow::in_round(inputs.lights[i].record, in.noise_round));
     const KeptRecord all{{0, 0, static_cast<int>(size_px_.x), static_cast<int>(size_px_.y)}};
     put_record(bytes_, kept_offset_, all);
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(bytes_));
@@ -308,7 +310,7 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
                                    return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.antialias;
                                }),
                    size_px_);
-    upload(in.inputs, in.picture, list);
+    upload(in, list);
     list.add(gl::BeginGroup{"shadow mask"});
     for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {
         import(in.picture, sample, list);

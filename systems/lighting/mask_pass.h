@@ -38,6 +38,7 @@ struct MaskInputs {
     const GpuScene& gpu;
     const DepthPicture& picture;
     std::span<const std::uint32_t> layers;
+    std::uint32_t noise_round = 0;  // shadow::in_round()
 };
 
 /// Visibility of lights over another renderer's picture: a texture with a layer per light and sample, 8 bits each. One
@@ -67,7 +68,7 @@ private:
     gl::Failure make_surfaces(glm::uvec2 size_px);
     gl::Failure make_layers(std::size_t layers);
     void provide_undecided(bool wanted);
-    void upload(const shadow::LightingInputs& inputs, const DepthPicture& picture, gl::CommandList& list);
+    void upload(const MaskInputs& in, gl::CommandList& list);
     void bind_camera(std::uint32_t sample, gl::CommandList& list) const;
     void import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const;
     LightProgram program_of(const shadow::LightingLight& light);

@@ -43,7 +43,7 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
         if (light.screen.width > 0 && may_keep(light) && passes_[i].own.lacks == Reason::none)
-            plan_kept(light, scene.lights[light.light].entity, surfaces, passes_[i]);
+            plan_kept(light, scene.lights[light.light].entity, surfaces, settings.noise_round, passes_[i]);
     }
     kept_.end();
 }
@@ -51,10 +51,11 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
 /// Plans a light's cached visibility. Its programs are made when it is filled: for visibility alone, and for the
 /// light's kind.
 void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces,
-                               LightPass& pass) {
+                               std::uint32_t noise_round, LightPass& pass) {
     Signature s;
     s.add(surfaces);
     s.add(light.lookup_signature);
+    if (shadow::has_noise(light.record)) s.add(std::uint64_t{noise_round});
     const KeptVisibility::Plan plan = kept_.plan(entity, s.value(), light.screen, targets_.size_px());
     if (plan.use == KeptVisibility::Use::look_up) return;
     const bool fills = plan.use == KeptVisibility::Use::fill;

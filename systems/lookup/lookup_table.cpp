@@ -158,7 +158,8 @@ void LookupTable::write(const LightingLight& light, const Found& found, LookupOu
     record.sizes = {found.reach_texel, static_cast<float>(found.depths.width), 0.0f, 0.0f};
 }
 
-bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list) {
+bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
+                         std::uint32_t noise_round) {
     const std::size_t count = inputs.lights.size();
     found_.clear();
     for (const LightingLight& light : inputs.lights) found_.push_back(find(light));
@@ -170,6 +171,7 @@ bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& g
     for (std::size_t i = 0; i < count; ++i) {
         LookupRecord record;
         write(inputs.lights[i], found_[i], outcomes_[i], record);
+        record.light = shadow::in_round(record.light, noise_round);
         std::memcpy(bytes_.data() + sizeof head + i * sizeof record, &record, sizeof record);
     }
     const gl::BufferHandle before = buffer_.handle();

@@ -61,7 +61,8 @@ public:
     /// Writes the records of the lights of `inputs`, light by light, and records their upload if they changed. Call it
     /// after ShadowSystem::update(), before the list is submitted. Returns false if the device has no room: the text
     /// must not be used then. Allocates nothing once its lists have grown.
-    bool update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list);
+    bool update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
+                std::uint32_t noise_round = 0);
     /// Makes the next update() upload all. Call it after a failed submission.
     void forget_upload() { uploaded_.clear(); }
 

@@ -17,7 +17,8 @@ bool PictureChanges::unchanged(const SceneSnapshot& scene, const shadow::ShadowF
     now_.clear();
     for (const shadow::LightStatus& status : shadows.statuses) now_.push_back({status.skipped(), status.degraded()});
     const Settings wanted{settings.exposure_ev,          settings.shadows,     settings.rays,
-                          settings.leave_out_dim_lights, settings.transparent, settings.shadow_budget};
+                          settings.leave_out_dim_lights, settings.transparent, settings.shadow_budget,
+                          settings.noise_frame};
     bool same = !put(version_, scene.version) && scene.version != 0;
     same &= !put(consumers_, scene.consumers);
     same &= !put(pictures_, scene.pictures);

@@ -21,6 +21,7 @@ private:
         std::optional<float> exposure_ev;
         bool shadows = true, rays = true, leave_out_dim_lights = true, transparent = false;
         shadow::ShadowBudget budget;
+        std::uint32_t noise_frame = 0;
         bool operator==(const Settings&) const = default;
     };
     /// What became of a light's shadow.

@@ -29,6 +29,8 @@ public:
     Draws begin(bool unchanged, std::uint32_t most, glm::uvec2 size_px, bool transparent);
     /// Returns the place of this frame's sample in each pixel, from its middle, pixels.
     glm::dvec2 place_px() const;
+    /// Returns the number of this frame's sample, from 0: samples differ by their noise as well.
+    std::uint32_t number() const { return draws_ == Draws::sample ? count_ : 0; }
     /// Records the frame's part, after its picture, as begin() returned it: adds a sample, and writes the mean.
     void record(const FinishedPicture& picture, gl::CommandList& list);
     /// Reports whether all that was recorded was executed. Without that the sum is void.

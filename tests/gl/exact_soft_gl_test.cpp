@@ -79,6 +79,20 @@ TEST_F(ExactSoft, MoreRaysComeNearerToTheTruth) {
     expect_right(measure(soft({"penumbra_rays=64"})), 3, 64.0);
 }
 
+TEST_F(ExactSoft, TheMeanOfFramesWithOtherNoiseComesNearerThanTheirRaysChance) {
+    const auto stage = open(soft({"penumbra_rays=16"}));
+    ASSERT_TRUE(stage);
+    const bench::Accuracy one = measure(*stage);
+    const bench::Accuracy mean = measure(*stage, {.timed_frames = 0, .noise_rounds = 8});
+    expect_right(mean, 3, 8.0 * 16.0);
+    for (std::size_t k = 0; k < mean.lights.size(); ++k) {
+        const double alone = one.lights[k].soft->metrics.penumbra_error, averaged = mean.lights[k].soft->metrics.penumbra_error;
+        std::printf("%s: mean error in penumbrae %.4f alone, %.4f of 8\n", one.lights[k].report.name.c_str(), alone, averaged);
+        EXPECT_LE(averaged, 0.02);
+        EXPECT_LT(averaged, 0.6 * alone);
+    }
+}
+
 TEST_F(ExactSoft, SponzasSunIsTheTruth) {
     auto options = soft({"penumbra_rays=32"});
     options.scene = test::data_folder() / "sponza-crytek/Sponza.gltf";

@@ -32,11 +32,7 @@ bool for_taps(Settings s, LightKind) {
                                           ShadowFilter::poisson_stratified, ShadowFilter::pcss};
     return is_among(kWithTaps, s.shadow.filter);
 }
-bool for_seed(Settings s, LightKind) {
-    static constexpr std::array kRandom{ShadowFilter::poisson_rotated, ShadowFilter::poisson_stratified,
-                                        ShadowFilter::pcss, ShadowFilter::exact_soft};
-    return is_among(kRandom, s.shadow.filter);
-}
+bool for_seed(Settings s, LightKind) { return row_of(s).random; }
 bool for_cells(Settings s, LightKind kind) { return for_seed(s, kind) && s.tuning.kernel.seed == FilterSeed::world; }
 bool for_many_taps(Settings s, LightKind kind) {
     return (for_size(s, kind) || for_spread(s, kind)) && !row_of(s).prefiltered;

@@ -31,7 +31,7 @@ layout(std140, binding = kLightBlock) uniform LightBlock {
     ivec4 filtering;           // x: texels along a grid's edge; y: number of taps; z: 1: bails early; w: 1: seeds come
                                // from the world
     vec4 spread;               // see shadow/lookup/tap_radius.glsl
-    ivec4 seed_cell;           // see shadow/filters/disk/noise_seed.glsl
+    ivec4 seed_cell;           // see shadow/filters/disk/noise_seed.glsl; w: round of noise. -1: nothing is random
     vec4 seed_place;
     vec4 moments;              // Prefiltered map (its filter's file): x, y: exponents; z: least variance; w: 1 if
                                // stored in 16 bits.

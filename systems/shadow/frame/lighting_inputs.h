@@ -42,6 +42,19 @@ struct LightRecord {
 };
 static_assert(sizeof(LightRecord) == std::size_t{13} * 16 + kMaxViews * sizeof(ViewRecord));
 
+/// Number of rounds of noise; the next one has the first one's pattern again. Round times step is then exact to 2^-14
+/// in the shader's floats (noise_seed.glsl).
+inline constexpr std::uint32_t kNoiseRounds = 1024;
+
+/// Returns whether the light's lookup differs from round to round.
+inline bool has_noise(const LightRecord& record) { return record.seed_cell.w >= 0; }
+
+/// Returns the record for another round of noise. Round 0 is the record as it is published.
+inline LightRecord in_round(LightRecord record, std::uint32_t round) {
+    if (has_noise(record)) record.seed_cell.w = static_cast<int>(round % kNoiseRounds);
+    return record;
+}
+
 /// Matches CameraBlock in shaders/common/camera_block.glsl (std140).
 struct CameraRecord {
     glm::mat4 clip_from_anchor{1.0f};

@@ -126,14 +126,15 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
 }
 
 /// Sets the filter's part of the record.
-void filter_record(const ShadowTuning::Kernel& kernel, const FilterSettings& filter, const ConsumerItem& consumer,
+void filter_record(const ShadowTuning::Kernel& kernel, const MapSettings& map, const ConsumerItem& consumer,
                    LightRecord& record) {
+    const FilterSettings& filter = map.filtering;
     record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), kernel.early_bail ? 1 : 0,
                         kernel.seed == FilterSeed::world ? 1 : 0};
     record.spread = {filter.spread_texel, filter.spread_m, filter.doubles_m > 0.0f ? 1.0f / filter.doubles_m : 0.0f,
                      filter.most_spread_texel};
     const NoiseCell cell = seed_cell(consumer.position_ws_m, static_cast<double>(filter.cell_m));
-    record.seed_cell = glm::ivec4(cell.cell, 0);
+    record.seed_cell = glm::ivec4(cell.cell, filter_row(map.filter).random ? 0 : -1);
     record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
 
@@ -225,7 +226,7 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
         // also without a map
-        filter_record(light.tuning.kernel, request.map.filtering, consumer, out.record);
+        filter_record(light.tuning.kernel, request.map, consumer, out.record);
         out.record.radiance.w = source_size(light.kind, request.map.filtering);
         out.sampler = in.samplers.of(MapReading::depths);
     }
@@ -265,7 +266,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
         out.record.cone.z = static_cast<float>(request.projection.cube_blend_eighths) / 8.0f;
     bias_record(light.tuning.bias, out);
     const MapSettings& map = request.map;
-    filter_record(light.tuning.kernel, map.filtering, consumer, out.record);
+    filter_record(light.tuning.kernel, map, consumer, out.record);
     out.record.moments = map.moments.settings;
     out.record.moment_sampling = {map.moments.bleeding, map.moments.footprint_texel,
                                   static_cast<float>(map.moments.anisotropy), 0.0f};

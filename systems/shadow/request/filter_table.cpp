@@ -99,6 +99,11 @@ constexpr FilterRow prefiltered_by_source(ShadowFilter id, std::string_view name
     return row;
 }
 
+constexpr FilterRow with_seeds(FilterRow row) {
+    row.random = true;
+    return row;
+}
+
 constexpr FilterRow kRows[] = {
     {ShadowFilter::hard, "hard", "shadow/filters/pcf/hard.glsl", one, 0.5f, FilterWidth::fixed,
      MapReading::compare_nearest},
@@ -110,10 +115,10 @@ constexpr FilterRow kRows[] = {
      FilterWidth::size, MapReading::compare_linear},
     {ShadowFilter::poisson, "poisson", "shadow/filters/disk/poisson.glsl", of_disk, 0.5f, FilterWidth::spread,
      MapReading::compare_nearest},
-    {ShadowFilter::poisson_rotated, "poisson_rotated", "shadow/filters/disk/poisson_rotated.glsl", of_disk, 0.5f,
-     FilterWidth::spread, MapReading::compare_nearest},
-    {ShadowFilter::poisson_stratified, "poisson_stratified", "shadow/filters/disk/poisson_stratified.glsl", of_disk,
-     0.5f, FilterWidth::spread, MapReading::compare_nearest},
+    with_seeds({ShadowFilter::poisson_rotated, "poisson_rotated", "shadow/filters/disk/poisson_rotated.glsl", of_disk,
+                0.5f, FilterWidth::spread, MapReading::compare_nearest}),
+    with_seeds({ShadowFilter::poisson_stratified, "poisson_stratified", "shadow/filters/disk/poisson_stratified.glsl",
+                of_disk, 0.5f, FilterWidth::spread, MapReading::compare_nearest}),
     {ShadowFilter::cube_grid, "cube_grid", "shadow/filters/disk/cube_grid.glsl", of_cube_grid, 0.5f,
      FilterWidth::spread, MapReading::compare_nearest},
     {ShadowFilter::cube_directions, "cube_directions", "shadow/filters/disk/cube_directions.glsl", of_directions, 0.5f,
@@ -128,14 +133,15 @@ constexpr FilterRow kRows[] = {
     prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/prefiltered/evsm2.glsl", kWarped),
     prefiltered(ShadowFilter::evsm4, "evsm4", "shadow/filters/prefiltered/evsm4.glsl", kWarpedTwice),
     prefiltered(ShadowFilter::moments, "moments", "shadow/filters/prefiltered/moments.glsl", kFourMoments),
-    {ShadowFilter::pcss, "pcss", "shadow/filters/pcss/pcss.glsl", of_search, 3.0f, FilterWidth::source,
-     MapReading::depths, kDepthsAlone, 2.5f, 0.75f, nullptr, nullptr, AreaShares::spread},
+    with_seeds({ShadowFilter::pcss, "pcss", "shadow/filters/pcss/pcss.glsl", of_search, 3.0f, FilterWidth::source,
+                MapReading::depths, kDepthsAlone, 2.5f, 0.75f, nullptr, nullptr, AreaShares::spread}),
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/prefiltered/pcss_moments.glsl",
                           kFourMoments),
     {ShadowFilter::exact, "exact", "shadow/filters/exact/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
      MapReading::depths, kConservativeBounds, 0.0f, 0.75f, nullptr, &kOneRay, AreaShares::marked},
-    {ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact/exact_soft.glsl", of_rays, 0.5f, FilterWidth::source,
-     MapReading::depths, kSourceBounds, 0.0f, 0.75f, nullptr, &kSourceRays, AreaShares::spread},
+    with_seeds({ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact/exact_soft.glsl", of_rays, 0.5f,
+                FilterWidth::source, MapReading::depths, kSourceBounds, 0.0f, 0.75f, nullptr, &kSourceRays,
+                AreaShares::spread}),
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

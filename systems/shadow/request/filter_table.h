@@ -89,6 +89,7 @@ struct FilterRow {
     const MomentRow* moments = nullptr;
     const RayRow* rays = nullptr;  // rays beside the map; nullptr: none
     AreaShares area_shares = AreaShares::none;
+    bool random = false;  // its taps or rays differ by a seed (shaders/shadow/filters/disk/noise_seed.glsl)
 };
 
 /// Default filter, and meaning of ShadowFilter::automatic unless the target chooses another: the row that measures

@@ -1,5 +1,5 @@
 // Two shares of 1 that differ from point to point without a pattern: by the pixel, or by the cell of the world.
-// light.seed_cell: the camera's cell. light.seed_place: xyz: its place in that cell, cells; w: cells per metre.
+// light.seed_cell: xyz: the camera's cell; w: round. light.seed_place: xyz: its place in that cell, cells; w: cells per metre.
 // The lattice's axes are those of systems/shadow/publish/noise_cell.cpp, and wrap after 2^24 cells as there.
 const vec3 kSeedAxisX = vec3(-0.6666666667, 0.1333333333, 0.7333333333);
 const vec3 kSeedAxisY = vec3(0.6666666667, -0.3333333333, 0.6666666667);
@@ -20,7 +20,13 @@ uint wrapped_cell(int camera_cell, float along) {
     return (uint(camera_cell) + uint(int(cell - kSeedCells * floor(cell / kSeedCells)))) & 0xffffffu;
 }
 
-vec2 shares_of(uint seed) { return vec2(float(seed & 0xffffu), float(seed >> 16)) / 65536.0; }
+// Step of both shares from round to round: rounds fill the square evenly (R2 sequence, Roberts 2018). Round 0 has none.
+const vec2 kRoundStep = vec2(0.7548776662, 0.5698402910);
+
+vec2 shares_of(uint seed) {
+    vec2 shares = vec2(float(seed & 0xffffu), float(seed >> 16)) / 65536.0;
+    return fract(shares + kRoundStep * float(light.seed_cell.w));
+}
 
 vec2 cell_seed(vec3 position_ca) {
     vec3 along = vec3(dot(kSeedAxisX, position_ca), dot(kSeedAxisY, position_ca), dot(kSeedAxisZ, position_ca));
