@@ -2,12 +2,12 @@
 
 #include "bench/accuracy/accuracy.h"
 #include "bench/accuracy/stated_accuracy.h"
+#include "bench/common/units.h"
 #include "bench/text/printf_string.h"
 
 namespace gnomon::bench {
 namespace {
 
-constexpr double kUsPerMs = 1000.0;
 constexpr double kBytesPerMb = 1.0e6;
 
 void append_errors(const LightAccuracy& light, std::string& text) {

@@ -9,7 +9,7 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr glm::uvec2 kPicture_px{64, 36};
+constexpr glm::uvec2 kTiny_px{64, 36};
 constexpr std::uint32_t kMap_px = 32;
 constexpr int kFrames = 4;  // the third of a still scene keeps what pixels saw, the fourth reads it
 
@@ -25,7 +25,7 @@ std::vector<gl::ProgramDesc> programs_of_rows() {
     const auto frame = FrameSystem::create(device, library);
     if (!frame) return {};
     FrameSettings settings;
-    settings.viewport_px = kPicture_px;
+    settings.viewport_px = kTiny_px;
     for (const CheckRowSetup& setup : check_row_setups()) {
         // Without a shadow in between, so that no map stays that another route has drawn.
         for (const game::NamedEntity& light : spawned.lights) world.remove<LightShadow>(light.entity);

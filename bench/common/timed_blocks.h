@@ -12,8 +12,6 @@ namespace gnomon::bench {
 
 inline constexpr double kStep_s = 1.0 / 60.0;  // by which what moves goes on from frame to frame
 
-inline constexpr double kUsPerMs = 1000.0;
-
 /// Times of each frame of a block. us: wall-clock time from its start until the device has finished it. cpu_us: the
 /// process's time on all cores, which other processes do not change.
 struct BlockTimes {

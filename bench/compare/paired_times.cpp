@@ -6,7 +6,7 @@ namespace gnomon::bench {
 namespace {
 
 // The first frame makes maps and compiles, the second draws them for the first time at rest.
-constexpr std::uint32_t kSettlingFrames = 2;
+constexpr std::uint32_t kUntimedFrames = 2;
 // Timings of a query may arrive this many frames late.
 constexpr std::uint32_t kTimingLag = 3;
 
@@ -18,7 +18,7 @@ std::optional<double> median_of(std::vector<double> values) {
 }  // namespace
 
 BlockOptions block_options(const gl::DeviceInfo& device, std::uint32_t frames) {
-    return {device.is_software ? kSettlingFrames : kSettlingFrames + kTimingLag, frames};
+    return {device.is_software ? kUntimedFrames : kUntimedFrames + kTimingLag, frames};
 }
 
 std::vector<LightTimes> time_block(Stage& stage, std::span<const std::uint32_t> lights, const RowSetup& row,

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::array<std::size_t, 3> kCounts = {100, 1000, 10000};
 constexpr std::size_t kUsual = 1000;
-constexpr std::int64_t kBoxes = 16000;  // four of five are seen
+constexpr std::int64_t kSceneBoxes = 16000;  // four of five are seen
 constexpr int kRepeats = 101;
 constexpr double kLeast_us = 200.0;  // least time of a measurement, so that the clock's own steps do not count
 
@@ -41,10 +41,10 @@ constexpr Kind kKinds[] = {{"sun's view, tight", LightKind::directional, ShadowF
 
 /// Makes a scene with these numbers of receivers and casters. The light, with one view, reaches all.
 SceneSnapshot scene_of(const Kind& kind, std::size_t receivers, std::size_t casters) {
-    SceneSnapshot scene = plain(kBoxes, kind.kind, 0.0);
+    SceneSnapshot scene = plain(kSceneBoxes, kind.kind, 0.0);
     scene.lights[0].tuning.cascades.fit = kind.fit;
     scene.lights[0].shadow.cascades = 1;
-    const double side_m = 5.0 * std::sqrt(static_cast<double>(kBoxes));
+    const double side_m = 5.0 * std::sqrt(static_cast<double>(kSceneBoxes));
     if (!light_facts(kind.kind).parallel) {
         scene.lights[0].position_ws_m = {0.0, side_m, 0.0};
         scene.lights[0].rotation_ws = math::basis_from_back({0.0, 1.0, 0.0});

@@ -19,8 +19,8 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr std::int64_t kFew = 10000, kMany = 1000000;
-constexpr double kSight_m = 60.0, kStep_m = 1.4 / 60.0;
+constexpr std::int64_t kFewCasters = 10000, kManyCasters = 1000000;
+constexpr double kWalkSight_m = 60.0, kStep_m = 1.4 / 60.0;
 constexpr std::uint32_t kSettlingFrames = 70, kTimedFrames = 200;
 
 enum class Motion : std::uint8_t { still, mover, walk };
@@ -37,7 +37,7 @@ assets::MeshLibrary boxes() {
 
 class PlainWorld {
 public:
-    PlainWorld(std::int64_t count, LightKind kind) : library_(boxes()), scene_(plain(count, kind, kSight_m)) {
+    PlainWorld(std::int64_t count, LightKind kind) : library_(boxes()), scene_(plain(count, kind, kWalkSight_m)) {
         scene_.version = scene_.list_version = scene_.tree_version = 1;
         for (InstanceItem& item : scene_.instances) item.version = 1;
         scene_.lights[0].entity = {1, 0};
@@ -106,7 +106,7 @@ std::string update_cost_table() {
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
         std::array<std::array<double, 2>, kMotions.size()> us{};
         for (const bool many : {false, true}) {
-            PlainWorld world(many ? kMany : kFew, kind.kind);
+            PlainWorld world(many ? kManyCasters : kFewCasters, kind.kind);
             for (std::size_t m = 0; m < kMotions.size(); ++m) us[m][many] = world.run(kMotions[m].first).median;
         }
         for (std::size_t m = 0; m < kMotions.size(); ++m) {

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "bench/common/units.h"
 #include "bench/embed/embed_costs.h"
 #include "bench/text/printf_string.h"
 

@@ -16,6 +16,9 @@
 /// Camera movements through a still scene.
 namespace gnomon::bench {
 
+/// Frames of a path's first pose after which sizes and holds of the automatic choices have settled.
+inline constexpr int kPathSettlingFrames = 3;
+
 struct CameraPath {
     std::string_view name, meaning;
 };

@@ -10,7 +10,6 @@ namespace gnomon::bench {
 namespace {
 
 constexpr std::string_view kJitter = "jitter";
-constexpr int kSettlingFrames = 3;
 // Sizes of maps may settle for a second before a picture counts as still.
 constexpr std::uint32_t kMostStillFrames = 200;
 // Way along a path that a step is measured by: so short that paths are straight.
@@ -60,7 +59,7 @@ std::optional<Error> draw_path(Stage& stage, const Watch& watch, const std::vect
                                std::vector<std::vector<std::vector<float>>>& seen) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
         place_camera(frames[i].pose, stage.world());
-        for (int r = 0; r < (i == 0 ? kSettlingFrames : 1); ++r) stage.run_frame();
+        for (int r = 0; r < (i == 0 ? kPathSettlingFrames : 1); ++r) stage.run_frame();
         if (auto error = read_visibility(stage, watch, watched, i, seen)) return error;
     }
     return std::nullopt;
@@ -98,7 +97,7 @@ std::vector<EdgeFlicker> rows_of(const std::string& path, const Watch& watch) {
 std::optional<Error> begin(Stage& stage, const EdgeFlickerOptions& options, Watch& watch) {
     const std::vector<std::string> first{options.compared[0]};
     if (auto error = stage.start_over(first)) return error;
-    for (int i = 0; i < kSettlingFrames; ++i) stage.run_frame();
+    for (int i = 0; i < kPathSettlingFrames; ++i) stage.run_frame();
     watch.scene = stage.frame().snapshot();
     if (watch.scene.consumers.empty()) return Error{"no usable camera", stage.scene_name(), "", "bench.camera"};
     watch.start = watch.scene.consumers.front();

@@ -14,8 +14,6 @@
 namespace gnomon::bench {
 namespace {
 
-// Sizes and holds of the automatic choices have settled after this many frames of the first pose.
-constexpr int kSettlingFrames = 3;
 constexpr std::size_t kStations = 16;       // places along a path where points are looked for
 constexpr std::size_t kChunk = 2048;        // points per piece of work
 constexpr std::uint32_t kAllLayers = 0xff;  // a lookup of a cube does not say which face
@@ -28,7 +26,7 @@ std::vector<std::string> known_paths() {
 }
 
 /// One light's effect on its points in the last frame.
-struct WatchedLight {
+struct LookedUpLight {
     std::vector<std::uint32_t> points;    // points that the light shines on
     std::vector<ExactVisibility> values;  // same order
     std::vector<std::uint8_t> seen;       // same order: in view in the last frame
@@ -49,7 +47,7 @@ public:
         : stage_(stage), frames_(frames), points_(points) {
         const SceneSnapshot& scene = frames.snapshot();
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
-            WatchedLight state;
+            LookedUpLight state;
             for (std::uint32_t i = 0; i < points.size(); ++i)
                 if (shines_on(scene.lights[l], points[i])) state.points.push_back(i);
             state.values.resize(state.points.size());
@@ -69,7 +67,7 @@ public:
         for (std::uint32_t i = 0; i < count; ++i) {
             const double share = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0;
             const ConsumerItem pose = on_path(start, rows_.empty() ? "" : rows_.front().path, share, distance_m);
-            const int repeats = i == 0 ? kSettlingFrames : 1;
+            const int repeats = i == 0 ? kPathSettlingFrames : 1;
             for (int r = 0; r < repeats; ++r)
                 if (auto error = frames_.run(pose)) return error;
             if (i > 0) compare_views();
@@ -102,7 +100,7 @@ private:
     void compare_views() {
         const shadow::ShadowFrame& frame = frames_.frame();
         const shadow::DrawnViews drawn = shadow::drawn_views(frame);
-        for (WatchedLight& state : states_) state.moved_layers = state.stepped_layers = 0;
+        for (LookedUpLight& state : states_) state.moved_layers = state.stepped_layers = 0;
         for (std::size_t v = 0; v < frame.fitted.views.size(); ++v) {
             const shadow::ShadowView& now = frame.fitted.views[v];
             const std::uint32_t light = now.light;
@@ -146,7 +144,7 @@ private:
         return std::nullopt;
     }
 
-    void look_through(const ExactLight& light, const ConsumerItem& camera, WatchedLight& state, PathFlicker& row,
+    void look_through(const ExactLight& light, const ConsumerItem& camera, LookedUpLight& state, PathFlicker& row,
                       bool first) {
         const std::size_t count = state.points.size();
         const auto chunks = static_cast<std::uint32_t>((count + kChunk - 1) / kChunk);
@@ -161,7 +159,7 @@ private:
     }
 
     void look_at(const ExactLight& light, const ConsumerItem& camera, PointRange points, bool first,
-                 WatchedLight& state, PathFlicker& part) const {
+                 LookedUpLight& state, PathFlicker& part) const {
         std::vector<std::size_t> seen;
         std::vector<SurfacePoint> at;
         for (std::size_t k = points.from; k < points.to; ++k) {
@@ -185,7 +183,7 @@ private:
         }
     }
 
-    static void compare(const ExactVisibility& before, const ExactVisibility& now, const WatchedLight& state,
+    static void compare(const ExactVisibility& before, const ExactVisibility& now, const LookedUpLight& state,
                         PathFlicker& row) {
         const bool still = (state.moved_layers & now.layers) == 0;
         const bool stepped = (state.stepped_layers & (before.layers | now.layers)) != 0;
@@ -226,7 +224,7 @@ private:
     Stage& stage_;
     ShadowFrames& frames_;
     const std::vector<SurfacePoint>& points_;
-    std::vector<WatchedLight> states_;
+    std::vector<LookedUpLight> states_;
     std::vector<PathFlicker> rows_;
     std::vector<shadow::ShadowView> known_views_;  // each as it last was
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "bench/common/units.h"
 #include "systems/shadow/request/ray_limit.h"
 
 namespace gnomon::bench {

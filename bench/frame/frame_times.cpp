@@ -5,11 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/common/timed_blocks.h"
+#include "bench/common/units.h"
 
 namespace gnomon::bench {
 namespace {
 
-constexpr std::size_t kLineLength = 256;
+constexpr std::size_t kTimesLength = 256;
 
 void set(Stage& stage, bool shadows, bool economy, bool keep_visibility) {
     stage.show_shadows(shadows);
@@ -18,7 +19,7 @@ void set(Stage& stage, bool shadows, bool economy, bool keep_visibility) {
 }
 
 std::string line(const char* what, const TimedFrames& frames) {
-    char text[kLineLength];
+    char text[kTimesLength];
     int used = std::snprintf(text, sizeof text, "%-28s %9.2f ms (%.2f-%.2f), processor %.2f ms", what,
                              frames.us.median / kUsPerMs, frames.us.min / kUsPerMs, frames.us.max / kUsPerMs,
                              frames.cpu_us.median / kUsPerMs);

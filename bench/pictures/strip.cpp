@@ -14,8 +14,8 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr glm::uvec2 kPart_px{288, 192};
-constexpr std::uint32_t kGap_px = 4;
+constexpr glm::uvec2 kPicture_px{288, 192};
+constexpr std::uint32_t kStripGap_px = 4;
 using Rgb = std::array<std::uint8_t, 3>;
 constexpr Rgb kPaper{255, 255, 255}, kWrong{235, 40, 30};
 
@@ -71,7 +71,7 @@ Result<Strip> make_strip(Stage& stage) {
     strip.scene = stage.scene_name();
     strip.device = stage.device().info().name;
     strip.size_px = truths.value().hits.size_px;
-    strip.part_px = glm::min(kPart_px, strip.size_px);
+    strip.part_px = glm::min(kPicture_px, strip.size_px);
     if (truths.value().lights.empty()) return Error{"no light has a shadow", strip.scene, "", "bench.strip"};
     strip.part_low_px = shown_part(truths.value().lights.front().point, strip.size_px, strip.part_px);
     strip.columns = {{"tutorial", tutorial_settings(), {}, {}, {}},
@@ -87,12 +87,12 @@ Result<Strip> make_strip(Stage& stage) {
 std::optional<Error> write_strip(const Strip& strip, const std::filesystem::path& file) {
     const glm::uvec2 part = strip.part_px;
     const auto columns = static_cast<std::uint32_t>(strip.columns.size());
-    const glm::uvec2 size_px{columns * part.x + (columns - 1) * kGap_px, 2 * part.y + kGap_px};
+    const glm::uvec2 size_px{columns * part.x + (columns - 1) * kStripGap_px, 2 * part.y + kStripGap_px};
     std::vector<std::uint8_t> rgba;
     for (std::uint32_t y = 0; y < size_px.y; ++y)
         for (std::uint32_t x = 0; x < size_px.x; ++x) {
-            const glm::uvec2 cell{x / (part.x + kGap_px), y / (part.y + kGap_px)};
-            const glm::uvec2 in{x % (part.x + kGap_px), y % (part.y + kGap_px)};
+            const glm::uvec2 cell{x / (part.x + kStripGap_px), y / (part.y + kStripGap_px)};
+            const glm::uvec2 in{x % (part.x + kStripGap_px), y % (part.y + kStripGap_px)};
             Rgb colour = kPaper;
             if (in.x < part.x && in.y < part.y) {
                 const StripColumn& column = strip.columns[cell.x];

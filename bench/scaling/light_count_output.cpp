@@ -2,12 +2,12 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
+#include "bench/common/units.h"
 #include "bench/scaling/light_count.h"
 
 namespace gnomon::bench {
 namespace {
 
-constexpr double kUsPerMs = 1000.0, kBytesPerMiB = 1024.0 * 1024.0;
 constexpr std::size_t kCellLength = 96;
 
 std::string milliseconds(const Spread& us) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "bench/common/units.h"
 #include "bench/scaling/light_count.h"
 #include "bench/text/svg.h"
 
@@ -10,7 +11,6 @@ namespace {
 
 constexpr double kWide = 250.0, kHigh = 130.0, kLeft = 64.0, kTop = 64.0, kGapX = 32.0, kGapY = 34.0, kBottom = 40.0;
 constexpr std::array kColours = {"#555555", "#1f6fb2", "#c0392b"};  // per mode
-constexpr double kUsPerMs = 1000.0, kBytesPerMiB = 1024.0 * 1024.0;
 
 struct Quantity {
     std::string title;

@@ -25,10 +25,10 @@ namespace {
 constexpr std::array kFits = {"tight", "stable", "quantised"};
 constexpr std::array kPaths = {"still", "walk", "pan"};
 /// Frames after which resting casters count as still, and unused maps are freed.
-constexpr std::uint32_t kSettlingFrames = 100;
+constexpr std::uint32_t kRestFrames = 100;
 /// Distance of what the camera looks at. The walk goes half of it: 1.4 m/s over five seconds.
 constexpr double kLookedAt_m = 14.0;
-constexpr double kMover_m = 0.3, kMoverPeriod_frames = 240.0;
+constexpr double kMoverSize_m = 0.3, kMoverPeriod_frames = 240.0;
 constexpr double kNearLamp = 0.15, kNearGround = 0.9;  // shares of the mover's way
 
 /// Counts of one light, summed over frames.
@@ -68,7 +68,7 @@ public:
         runner->run_frame();
         runner->start_ = runner->snapshot_.consumers.front();
         if (mover) runner->add_mover();
-        for (std::uint32_t i = 0; i < kSettlingFrames; ++i) runner->run_frame();
+        for (std::uint32_t i = 0; i < kRestFrames; ++i) runner->run_frame();
         return runner;
     }
     ~Runner() {
@@ -95,7 +95,7 @@ public:
 private:
     ecs::Entity camera() const { return start_.entity; }
 
-    /// Adds the mover: the smallest closed mesh of the scene, scaled to kMover_m, between the first point light and
+    /// Adds the mover: the smallest closed mesh of the scene, scaled to kMoverSize_m, between the first point light and
     /// what the camera looks at.
     void add_mover() {
         std::uint32_t mesh = 0;
@@ -108,7 +108,7 @@ private:
         ground_ws_m_ = start_.position_ws_m - 0.5 * kLookedAt_m * start_.rotation_ws[2];
         mover_ = world_.create();
         const double size_m = glm::length(2.0 * math::half_extent(library_.meshes[mesh].bounds_ms));
-        world_.emplace<Transform>(mover_, {.scale = glm::dvec3(kMover_m / size_m)});
+        world_.emplace<Transform>(mover_, {.scale = glm::dvec3(kMoverSize_m / size_m)});
         world_.emplace<MeshRef>(mover_, {.mesh = mesh});
         world_.emplace<ShadowCaster>(mover_);
         move_to(kNearGround);

@@ -4,6 +4,8 @@
 
 namespace gnomon {
 
+inline constexpr std::size_t kSome = 300;  // pixels; a claim about fewer is none
+
 /// Boxes above cards, in the world and in the oracle at once.
 class BoxTest : public FrameTest {
 protected:

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kCardHeight_m = 1.5;
 constexpr double kHalfHeight_m = 4.0;
-constexpr glm::dvec3 kLightAt_m{0.3, 9.0, 0.2};
+constexpr glm::dvec3 kCardLightAt_m{0.3, 9.0, 0.2};
 
 class CasterFacesGl : public TracedFrameTest, public ::testing::WithParamInterface<LightKind> {
 protected:
@@ -53,7 +53,7 @@ protected:
     float on_card() { return light_at(0.05); }
     float beside_card() { return light_at(0.65); }  // the ground under the box
     float in_the_open() { return light_at(3.0); }
-    void add_lamp() { lamp = add_light_of(GetParam(), kLightAt_m, {.resolution_px = 512}); }
+    void add_lamp() { lamp = add_light_of(GetParam(), kCardLightAt_m, {.resolution_px = 512}); }
 
     ecs::Entity lamp;
 };

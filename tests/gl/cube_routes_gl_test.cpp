@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kMap_px = 128;
-constexpr std::size_t kSome = 200;
+constexpr std::size_t kSomeOfRoute = 200;
 
 class CubeRoutes : public RoomTest {
 protected:
@@ -78,7 +78,7 @@ TEST_F(CubeRoutes, GiveTheSameBitsInEveryFace) {
                 << "route " << other << ", face " << layer;
         }
     }
-    EXPECT_GT(drawn, kSome);
+    EXPECT_GT(drawn, kSomeOfRoute);
     EXPECT_NE(face(maps()[0], 0), face(maps()[0], 1)) << "faces differ, or the comparison says little";
 }
 
@@ -109,7 +109,7 @@ TEST_F(CubeRoutes, LeaveFacesAloneThatAreNotDrawn) {
         EXPECT_EQ(lights[light].counts.views_drawn, lights[0].counts.views_drawn);
         EXPECT_EQ(lights[light].counts.clears, lights[0].counts.clears);
         EXPECT_EQ(lights[light].counts.triangles, lights[0].counts.triangles);
-        expect_true(0, kSome, light);
+        expect_true(0, kSomeOfRoute, light);
         EXPECT_EQ(visibility(light), visibility(0));
     }
     EXPECT_LT(lights[2].counts.draws, lights[0].counts.draws) << "one draw per mesh serves every face";

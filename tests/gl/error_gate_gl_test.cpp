@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr glm::uvec2 kSize_px{400, 225};
+constexpr glm::uvec2 kGateSize_px{400, 225};
 /// Of the quick sweep, beside what tutorials set up: a row per way to filter, fit, store and bias.
 constexpr std::string_view kRows[] = {bench::kDefaultsRow, "fit=tight", "fit=stable",         "cascades=1",
                                       "cascades=4",        "hard",      "bias=normal_offset", "hard, resolution=512",
@@ -50,7 +50,7 @@ protected:
     /// False: the device is no one's to compare with; says so.
     bool open_stage() {
         bench::StageOptions options;
-        options.size_px = kSize_px;
+        options.size_px = kGateSize_px;
         stage_ = open(options);
         if (!stage_) return false;
         auto truths = bench::trace_truths(*stage_, false);

@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-constexpr double kMostAmbiguous = 0.001;
+constexpr double kMostAmbiguousOfWorld = 0.001;
 constexpr std::size_t kLeast = 200;  // pixels that are lit, and that are dark: of fewer nothing is learnt
 
 class ExactWorlds : public TracedFrameTest, public ::testing::WithParamInterface<LightKind> {
@@ -56,7 +56,7 @@ protected:
         return oracle::exactness(tracer, hits, camera, truth, visibility(light));
     }
     oracle::Exactness judged() { return judged(frame().snapshot()); }
-    void expect_exact(const oracle::Exactness& found, double most_ambiguous = kMostAmbiguous) {
+    void expect_exact(const oracle::Exactness& found, double most_ambiguous = kMostAmbiguousOfWorld) {
         EXPECT_EQ(found.wrong, 0u) << "of " << found.scored;
         EXPECT_LE(static_cast<double>(found.ambiguous), most_ambiguous * static_cast<double>(found.scored));
         EXPECT_GT(found.lit, kLeast);

@@ -7,7 +7,7 @@ namespace gnomon {
 namespace {
 
 constexpr int kNoMap = -1, kUnknown = -2;
-constexpr double kTint = 0.4;  // shaders/debug/cascades.frag
+constexpr double kFrozenTint = 0.4;  // shaders/debug/cascades.frag
 
 class FrozenFits : public DebugPictureTest, public ::testing::WithParamInterface<ShadowFit> {
 protected:
@@ -73,7 +73,7 @@ private:
     int map_at(std::uint32_t x, std::uint32_t y) {
         if (shown_at(x, y) == plain_at(x, y)) return kNoMap;
         for (std::size_t i = 1; i < labels().size(); ++i)
-            if (near(shown_at(x, y), over(plain_at(x, y), labels()[i], kTint))) return static_cast<int>(i);
+            if (near(shown_at(x, y), over(plain_at(x, y), labels()[i], kFrozenTint))) return static_cast<int>(i);
         return kUnknown;
     }
     /// The pixel of an earlier picture that saw a point of the ground, if no box stood before it.

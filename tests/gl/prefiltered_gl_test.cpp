@@ -14,7 +14,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kFace_px = 64, kBlur_texel = 9;
-constexpr double kNear_m = 1.0, kFar_m = 9.0, kWall_m = 5.0;
+constexpr double kLampNear_m = 1.0, kLampFar_m = 9.0, kWall_m = 5.0;
 
 std::vector<const shadow::FilterRow*> prefiltered_rows() {
     std::vector<const shadow::FilterRow*> rows;
@@ -42,18 +42,18 @@ protected:
                 for (std::uint32_t column = 0; column < kFace_px; ++column) {
                     const glm::dvec3 d = direction_of(face, column, row);
                     const double z_m = kWall_m / glm::length(d);  // along the face's axis
-                    const double depth = kNear_m / (kFar_m - kNear_m) * (kFar_m / z_m - 1.0);
+                    const double depth = kLampNear_m / (kLampFar_m - kLampNear_m) * (kLampFar_m / z_m - 1.0);
                     depths.push_back(static_cast<float>(covered(d) * depth));
                 }
         const auto map = keep(device().create_texture({.label = "depths", .kind = gl::TextureKind::cube, .format = gl::Format::d32f, .width = kFace_px, .height = kFace_px},
                                                       std::as_bytes(std::span(depths))));
         const LightItem lamp{.kind = LightKind::point, .tuning = {.kernel = {.size_texel = size}}};
-        const auto moments = moments_of(shadow::filter_row(ShadowFilter::vsm), lamp, map, kFace_px, {kNear_m, kFar_m});
+        const auto moments = moments_of(shadow::filter_row(ShadowFilter::vsm), lamp, map, kFace_px, {kLampNear_m, kLampFar_m});
         std::vector<std::vector<float>> faces;
         for (std::uint32_t face = 0; face < 6; ++face) faces.push_back(read<float>(moments, std::size_t{kFace_px} * kFace_px * 2, face));
         return faces;
     }
-    static double share_of_wall() { return (kWall_m - kNear_m) / (std::sqrt(3.0) * kFar_m - kNear_m); }
+    static double share_of_wall() { return (kWall_m - kLampNear_m) / (std::sqrt(3.0) * kLampFar_m - kLampNear_m); }
     /// How much of the caster a texel shows: 0 to 1.
     static double shown(const std::vector<std::vector<float>>& faces, std::uint32_t face, std::uint32_t column, std::uint32_t row) {
         const double mean = static_cast<double>(faces[face][2 * (std::size_t{row} * kFace_px + column)]);

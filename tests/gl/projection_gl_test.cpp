@@ -8,7 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kSome = 300;  // pixels; a claim about fewer is none
 constexpr std::size_t kFew = 15;    // where the place itself is small
 constexpr double kEye_m = 11.0;     // height of every light's place above the ground
 constexpr glm::dvec3 kDown{0.0, -1.0, 0.0};

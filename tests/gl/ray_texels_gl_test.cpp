@@ -21,12 +21,12 @@ using rays::BvhTriangle;
 using visibility::RayInstance;
 using visibility::RayTop;
 
-constexpr std::uint32_t kRecords = 5;
+constexpr std::uint32_t kTexelRecords = 5;
 /// Words of 32 bits of a node, a triangle, the upper tree's head, a node of it and a part of an instance, as the probe
 /// writes them.
-constexpr std::size_t kWords = 8 + 12 + 8 + 8 + 17;
+constexpr std::size_t kTexelWords = 8 + 12 + 8 + 8 + 17;
 
-const std::string kProbe =
+const std::string kTexelProbe =
     "#include \"ray_tracing/bvh_buffers.glsl\"\n"
     R"(layout(local_size_x = 1) in;
 layout(std430, binding = 1) buffer Out { uint words[]; };
@@ -77,7 +77,7 @@ protected:
         list.add(gl::BindTexels{11, texels.triangles});
         list.add(gl::BindTexels{12, texels.upper});
         list.add(gl::BindTexels{13, texels.parts});
-        return probed<std::uint32_t>(kProbe, kRecords, kRecords * kWords, std::move(list));
+        return probed<std::uint32_t>(kTexelProbe, kTexelRecords, kTexelRecords * kTexelWords, std::move(list));
     }
 };
 
@@ -93,7 +93,7 @@ TEST_F(RayTexels, ShadersReadWhatWasWritten) {
     std::vector<BvhNode> upper{std::bit_cast<BvhNode>(head)};
     std::vector<RayInstance> parts;
     std::vector<std::uint32_t> written;
-    for (std::uint32_t i = 0; i < kRecords; ++i) {
+    for (std::uint32_t i = 0; i < kTexelRecords; ++i) {
         const BvhNode& node = nodes.emplace_back(BvhNode{any(), number(), any(), number()});
         append(written, node.min, node.skip);
         append(written, node.max, node.leaf);
@@ -121,7 +121,7 @@ TEST_F(RayTexels, ShadersReadWhatWasWritten) {
 
     // A list writes to such a buffer as to any other, and what is read is what was written last.
     std::swap(nodes.front(), nodes.back());
-    std::swap_ranges(written.begin(), written.begin() + 8, written.end() - kWords);
+    std::swap_ranges(written.begin(), written.begin() + 8, written.end() - kTexelWords);
     gl::CommandList list;
     list.update(texels.nodes, 0, std::span<const BvhNode>(nodes));
     run(list);

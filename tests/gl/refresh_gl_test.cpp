@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 constexpr float kAllowed_px = 4.0f;
-constexpr int kFrames = 16;
+constexpr int kWalkFrames = 16;
 
 struct Filtered {
     LightKind kind;
@@ -62,7 +62,7 @@ TEST_P(RefreshGl, ShowsEdgesWhereItIsSaidAndNoMoverThatDarkensItself) {
     int held = 0;
     double worst_px = 0.0, worst_of_said = 0.0;
     std::size_t places = 0;
-    for (int i = 1; i < kFrames; ++i) {
+    for (int i = 1; i < kWalkFrames; ++i) {
         step(i);
         SCOPED_TRACE("frame " + std::to_string(i));
         const bool is_held = report().counts.views_drawn == 0;
@@ -81,11 +81,11 @@ TEST_P(RefreshGl, ShowsEdgesWhereItIsSaidAndNoMoverThatDarkensItself) {
         worst_px = std::max(worst_px, edge.max_px);
         worst_of_said = std::max(worst_of_said, edge.max_px / report().predicted_error_px);
     }
-    std::cout << held << " of " << kFrames - 1 << " frames held; of " << places
+    std::cout << held << " of " << kWalkFrames - 1 << " frames held; of " << places
               << " places of edges those in them are off by up to " << worst_px << " px, " << worst_of_said
               << " of what was said\n";
-    EXPECT_GT(held, kFrames / 3);
-    EXPECT_LT(held, kFrames - 2);
+    EXPECT_GT(held, kWalkFrames / 3);
+    EXPECT_LT(held, kWalkFrames - 2);
 }
 
 TEST_P(RefreshGl, IsOffByMoreThanItsTexelsExplainWhereMuchIsAllowed) {

@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 /// Places below which a light's 99th percentile has no meaning.
-constexpr std::size_t kLeastPlaces = 200;
+constexpr std::size_t kLeastEdgePlaces = 200;
 constexpr double kMostMedianSlack = 3.0;
 
 /// Lights with more than a thousandth of their places beyond what is stated, and how many those are at most. Walks of
@@ -80,7 +80,7 @@ protected:
 TEST_F(ResolvedEdges, AreWhereTheyAreStatedToBeAndTheStatementIsNotIdle) {
     std::vector<double> slack;
     each_light({}, [&](const bench::LightAccuracy& light) {
-        if (light.edges->resolved.places >= kLeastPlaces) slack.push_back(bench::slack_of(light));
+        if (light.edges->resolved.places >= kLeastEdgePlaces) slack.push_back(bench::slack_of(light));
     });
     ASSERT_GE(slack.size(), 9u);
     std::nth_element(slack.begin(), slack.begin() + slack.size() / 2, slack.end());

@@ -6,15 +6,15 @@
 namespace gnomon {
 namespace {
 
-constexpr double kHalf_m = 4.0;
-constexpr std::size_t kSome = 200;
+constexpr double kRoomHalf_m = 4.0;
+constexpr std::size_t kSomeOfFace = 200;
 
 class ShadowCube : public RoomTest {
 protected:
     /// A camera near the wall behind, aside of the light so that casters do not hide their shadows.
     void look(const glm::dvec3& direction) {
         const glm::dvec3 aside(direction.y + direction.z, direction.z + direction.x, direction.x + direction.y);
-        add_camera({.fov_y_rad = 1.6}, -0.85 * kHalf_m * direction + 0.5 * kHalf_m * aside, direction);
+        add_camera({.fov_y_rad = 1.6}, -0.85 * kRoomHalf_m * direction + 0.5 * kRoomHalf_m * aside, direction);
     }
 };
 
@@ -36,22 +36,22 @@ protected:
 
 TEST_P(ShadowCubeAlong, OneCasterDarkensTheWallBehindItAndNoOther) {
     truth.margin_m = 0.12;
-    add_room(kHalf_m);
+    add_room(kRoomHalf_m);
     const glm::dvec3 at = 1.4 * direction() + 0.2 * glm::dvec3(direction().y, direction().z, direction().x);
     add_box(at - 0.3, at + 0.3);
     add_light({.kind = LightKind::point, .intensity = 1000.0f}, glm::dvec3(0.1, -0.15, 0.05), {0.0, 0.0, -1.0},
               {.filter = ShadowFilter::hard, .resolution_px = 256});
     look(direction());
     draw();
-    expect_true(kSome, 10 * kSome);
+    expect_true(kSomeOfFace, 10 * kSomeOfFace);
     // The same caster on the other side of the light would darken another wall.
     truth.boxes.front().translation_m = -2.0 * at;
-    EXPECT_GT(judged().wrong, kSome / 2);
+    EXPECT_GT(judged().wrong, kSomeOfFace / 2);
 }
 
 TEST_P(ShadowCubeAlong, CastersAcrossEverySeamAndCornerDarkenBothSides) {
     truth.margin_m = 0.12;
-    add_room(kHalf_m);
+    add_room(kRoomHalf_m);
     for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
             for (int z = -1; z <= 1; ++z) {
@@ -66,7 +66,7 @@ TEST_P(ShadowCubeAlong, CastersAcrossEverySeamAndCornerDarkenBothSides) {
     draw();
     for (std::uint32_t light = 0; light < filters().size(); ++light) {
         SCOPED_TRACE(filters()[light].name);
-        expect_true(kSome, 10 * kSome, light);
+        expect_true(kSomeOfFace, 10 * kSomeOfFace, light);
     }
 }
 
@@ -74,7 +74,7 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
     // Off the middle, so that the cube's seams run over the walls; within the filter of the room's own edges a
     // neighbouring wall may darken, which the margin leaves out.
     truth.margin_m = 0.4;
-    add_room(kHalf_m);
+    add_room(kRoomHalf_m);
     // Something must cast, or no map exists: here the walls cast upon themselves.
     const auto walls = world.entities_with<MeshRef>();
     for (const ecs::Entity wall : std::vector<ecs::Entity>(walls.begin(), walls.end()))
@@ -94,10 +94,10 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
         const bool on_plane = filters()[light].reading == shadow::MapReading::depths;
         const double reach =
             static_cast<double>(shadow::filter_settings(filters()[light], LightItem{}, kCoarse_px).widest_texel);
-        const double widest_texel_m = 2.0 / kCoarse_px * glm::length(glm::abs(lamp) + kHalf_m);
+        const double widest_texel_m = 2.0 / kCoarse_px * glm::length(glm::abs(lamp) + kRoomHalf_m);
         truth.margin_m = on_plane ? least_m : std::max(least_m, std::sqrt(2.0) * reach * widest_texel_m);
         EXPECT_GE(frame().report().lights[light].counts.views, 4u);  // as many as the camera sees walls in
-        expect_true(0, 50 * kSome, light);
+        expect_true(0, 50 * kSomeOfFace, light);
     }
 }
 

@@ -6,8 +6,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kSome = 300;
-
 class ShadowLimits : public BoxTest {
 protected:
     static Light point(float range_m = 0.0f) {

@@ -8,8 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kSome = 300;  // pixels; a claim about fewer is none
-
 struct Row {
     LightKind kind;
     ShadowFilter filter;

@@ -15,6 +15,8 @@
 
 namespace gnomon {
 
+inline constexpr double kUnitRoundoff = 5.9604644775390625e-8;  // 2^-24, of a float
+
 enum class Verdict : std::uint8_t { lit, dark, uncertain };
 
 /// Sheets of views put together by hand, and what they say of places, by the shaders' own text.

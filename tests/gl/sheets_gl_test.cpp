@@ -17,7 +17,6 @@ using test::Random;
 using test::View;
 using test::view_of;
 
-constexpr double kUnitRoundoff = 5.9604644775390625e-8;
 
 /// All the way to the light: in shaders/shadow/filters/exact/classify.glsl.
 constexpr float kNoReach = 3.0e38f;

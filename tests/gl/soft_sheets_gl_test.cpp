@@ -17,17 +17,16 @@ using test::QueryScene;
 using test::Random;
 using test::View;
 
-constexpr double kUnitRoundoff = 5.9604644775390625e-8;
 constexpr std::uint32_t kRays = 64;
 
-struct Tally {
+struct SoftTally {
     std::size_t places = 0, lit = 0, dark = 0, wrong = 0, partly = 0;
 };
 
 class SoftSheets : public SheetsTest, public ::testing::WithParamInterface<LightKind> {
 protected:
     /// One random world under one random light: the only thing that is certain of a place is what no ray contradicts.
-    void play(Random& random, std::size_t count, bool margins, Ask ask, Tally& tally) {
+    void play(Random& random, std::size_t count, bool margins, Ask ask, SoftTally& tally) {
         glm::dvec3 offset_m(0.0);
         if (chance(random, 0.2)) offset_m = {1.0e8, -3.0e7, 5.0e7};
         QueryScene scene = test::sheet_world(random, offset_m);
@@ -77,7 +76,7 @@ private:
     }
 
     static void judge(const QueryScene& scene, const View& view, const std::vector<visibility::Place>& places,
-                      const std::vector<Verdict>& found, bool complain, Tally& tally) {
+                      const std::vector<Verdict>& found, bool complain, SoftTally& tally) {
         std::vector<visibility::Place> certain;
         std::vector<bool> lit;
         for (std::size_t i = 0; i < places.size(); ++i) {
@@ -106,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SoftSheets,
 
 TEST_P(SoftSheets, AreRightWhereTheyAreCertain) {
     const std::uint64_t seed = print_seed();
-    Tally tally;
+    SoftTally tally;
     for (int world = 0; world < worlds() && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
         Random random(seed + static_cast<std::uint64_t>(world));
@@ -121,7 +120,7 @@ TEST_P(SoftSheets, AreRightWhereTheyAreCertain) {
 }
 
 TEST_P(SoftSheets, WithoutLookingBesideTheMiddleWouldBeWrong) {
-    Tally tally;
+    SoftTally tally;
     for (int world = 0; world < 10 && tally.partly < 20; ++world) {
         Random random(static_cast<std::uint64_t>(world) + 1);
         play(random, places(), true, Ask::source_without_reach, tally);
@@ -130,7 +129,7 @@ TEST_P(SoftSheets, WithoutLookingBesideTheMiddleWouldBeWrong) {
 }
 
 TEST_P(SoftSheets, WithoutMarginsWouldBeWrong) {
-    Tally tally;
+    SoftTally tally;
     for (int world = 0; world < 40 && tally.wrong == 0; ++world) {
         Random random(static_cast<std::uint64_t>(world) + 1);
         play(random, 20000, false, Ask::source, tally);

@@ -9,18 +9,18 @@
 namespace gnomon {
 namespace {
 
-constexpr glm::uvec2 kSize_px{640, 360};
+constexpr glm::uvec2 kControlSize_px{640, 360};
 
 class TruthControls : public TruthTest {
 protected:
     static bench::StageOptions small(std::vector<std::string> settings = {}) {
         bench::StageOptions options;
-        options.size_px = kSize_px;
+        options.size_px = kControlSize_px;
         options.settings = std::move(settings);
         return options;
     }
     static oracle::Metrics against(const bench::LightAccuracy& truth, const std::vector<float>& measured) {
-        return oracle::compare({kSize_px, measured, truth.truth.visibility, truth.truth.scored, truth.truth.ambiguous});
+        return oracle::compare({kControlSize_px, measured, truth.truth.visibility, truth.truth.scored, truth.truth.ambiguous});
     }
     /// Fails if the measured picture would pass for the truth.
     static void expect_caught(const oracle::Metrics& metrics) {
@@ -89,7 +89,7 @@ TEST_F(TruthControls, ALightFromElsewhereIsCaught) {
             moved.position_ws_m += glm::dvec3(1.0, 0.5, 1.0);
         const oracle::LightTruth truth = tracer.trace_light(hits, moved, true);
         const auto metrics =
-            oracle::compare({kSize_px, light->measured, truth.visibility, truth.scored, truth.ambiguous});
+            oracle::compare({kControlSize_px, light->measured, truth.visibility, truth.scored, truth.ambiguous});
         expect_caught(metrics);
     }
 }

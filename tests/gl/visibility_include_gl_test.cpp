@@ -28,9 +28,9 @@ void PrintTo(const FilterRow& row, std::ostream* out) { *out << row.name; }
 namespace gnomon {
 namespace {
 
-constexpr std::uint32_t kMap_px = 64;
+constexpr std::uint32_t kDrawnMap_px = 64;
 constexpr std::uint32_t kProbeBinding = 7;  // in probe.frag, beyond what rows bind
-constexpr double kNear_m = 1.0, kFar_m = 9.0, kHalf = 1.0;  // half: metres of the sun's map, tangent of the spot's
+constexpr double kMapNear_m = 1.0, kMapFar_m = 9.0, kHalf = 1.0;  // half: metres of the sun's map, tangent of the spot's
 
 // The worked example of docs/contributors/adding_a_filter.md: a file and a row.
 std::string diamond_file() {
@@ -53,18 +53,18 @@ protected:
     /// A record for a light at the origin that looks along -z.
     static shadow::LightRecord record(LightKind kind) {
         const bool sun = kind == LightKind::directional;
-        const double range_m = kFar_m - kNear_m;
-        const glm::dmat4 clip = sun ? math::reversed_orthographic(-kHalf, kHalf, -kHalf, kHalf, kNear_m, kFar_m)
-                                    : math::reversed_perspective(-kHalf, kHalf, -kHalf, kHalf, kNear_m, kFar_m);
+        const double range_m = kMapFar_m - kMapNear_m;
+        const glm::dmat4 clip = sun ? math::reversed_orthographic(-kHalf, kHalf, -kHalf, kHalf, kMapNear_m, kMapFar_m)
+                                    : math::reversed_perspective(-kHalf, kHalf, -kHalf, kHalf, kMapNear_m, kMapFar_m);
         shadow::LightRecord light;
         light.options = {1, 1, 0, 0x3f};  // one view, constant bias, every face drawn
         light.bias.x = 0.01f;
         light.views[0].map_from_anchor = glm::mat4(math::texture_from_clip() * clip);
-        const float texel = static_cast<float>(2.0 * kHalf / kMap_px);
+        const float texel = static_cast<float>(2.0 * kHalf / kDrawnMap_px);
         light.views[0].axis_u = {1.0f, 0.0f, 0.0f, texel};
         light.views[0].axis_v = {0.0f, 1.0f, 0.0f, texel};
-        light.views[0].axis_back = {0.0f, 0.0f, 1.0f, static_cast<float>(sun ? range_m : kNear_m * kFar_m / range_m)};
-        light.views[0].numeric.z = static_cast<float>(-kNear_m / range_m);
+        light.views[0].axis_back = {0.0f, 0.0f, 1.0f, static_cast<float>(sun ? range_m : kMapNear_m * kMapFar_m / range_m)};
+        light.views[0].numeric.z = static_cast<float>(-kMapNear_m / range_m);
         return light;
     }
 
@@ -85,8 +85,8 @@ protected:
     bool reads_moments() const { return row_.moments; }
     /// A map drawn by hand shows casters that are no triangles.
     gl::TextureHandle no_triangles(gl::TextureKind kind) {
-        const std::vector<std::uint32_t> none(std::size_t{kMap_px} * kMap_px * 2 * (kind == gl::TextureKind::cube ? 6 : 1), 0xffffffffu);
-        return keep(device().create_texture({.label = "triangles", .kind = kind, .format = gl::Format::rg32ui, .width = kMap_px, .height = kMap_px},
+        const std::vector<std::uint32_t> none(std::size_t{kDrawnMap_px} * kDrawnMap_px * 2 * (kind == gl::TextureKind::cube ? 6 : 1), 0xffffffffu);
+        return keep(device().create_texture({.label = "triangles", .kind = kind, .format = gl::Format::rg32ui, .width = kDrawnMap_px, .height = kDrawnMap_px},
                                             std::as_bytes(std::span(none))));
     }
     /// Whether values between lit and dark occur.
@@ -97,10 +97,10 @@ protected:
         light.kind = kind;
         return light;
     }
-    shadow::FilterSettings filtering(LightKind kind) const { return shadow::filter_settings(row_, item(kind), kMap_px); }
+    shadow::FilterSettings filtering(LightKind kind) const { return shadow::filter_settings(row_, item(kind), kDrawnMap_px); }
     /// E in the tangent or metres of the map.
     double reach(LightKind kind) const {
-        return static_cast<double>(filtering(kind).widest_texel) * 2.0 * kHalf / kMap_px;
+        return static_cast<double>(filtering(kind).widest_texel) * 2.0 * kHalf / kDrawnMap_px;
     }
 
     /// The row as a program that looks up a list of probes.
@@ -146,7 +146,7 @@ protected:
     /// `texels`: the map's, reversed depth, row by row, face by face.
     std::vector<float> look_up(LightKind kind, std::span<const float> texels, const std::vector<glm::vec3>& points, bool early_bail = false) {
         const auto& kind_row = shadow::light_kind_row(kind);
-        const auto map = keep(device().create_texture({.label = "map", .kind = kind_row.texture, .format = gl::Format::d32f, .width = kMap_px, .height = kMap_px},
+        const auto map = keep(device().create_texture({.label = "map", .kind = kind_row.texture, .format = gl::Format::d32f, .width = kDrawnMap_px, .height = kDrawnMap_px},
                                                       std::as_bytes(texels)));
         std::vector<glm::vec4> probes;
         for (const glm::vec3& p : points) {
@@ -160,7 +160,7 @@ protected:
         light.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), early_bail ? 1 : 0, 1};
         light.spread = {filter.spread_texel, 0.0f, 0.0f, filter.most_spread_texel};
         light.seed_place.w = 1.0f / filter.cell_m;
-        const shadow::PrefilterSettings moments = shadow::prefilter_settings(row_, item(kind), kMap_px);
+        const shadow::PrefilterSettings moments = shadow::prefilter_settings(row_, item(kind), kDrawnMap_px);
         light.moments = moments.settings;
         light.moment_sampling.x = moments.bleeding;
         light.radiance.w = kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
@@ -178,7 +178,7 @@ protected:
         list.add(gl::BindUniforms{1, uniforms, 0, sizeof light});
         list.add(gl::BindStorage{kProbeBinding, buffer});
         list.add(gl::BindTexture{
-            4, reads_moments() ? moments_of(row_, item(kind), map, kMap_px, {kNear_m, kFar_m}) : map, sampler});
+            4, reads_moments() ? moments_of(row_, item(kind), map, kDrawnMap_px, {kMapNear_m, kMapFar_m}) : map, sampler});
         if (reads_triangles()) list.add(gl::BindTexture{5, no_triangles(kind_row.texture), {}});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
@@ -191,17 +191,17 @@ protected:
         return look_up(kind, std::vector<float>(texels_of(kind), map_depth), points);
     }
 
-    static std::size_t texels_of(LightKind kind) { return std::size_t{kMap_px} * kMap_px * (kind == LightKind::point ? 6 : 1); }
+    static std::size_t texels_of(LightKind kind) { return std::size_t{kDrawnMap_px} * kDrawnMap_px * (kind == LightKind::point ? 6 : 1); }
 
     /// A caster before every texel that looks toward negative x; none before the others.
     static std::vector<float> half_covered(LightKind kind) {
         std::vector<float> texels(texels_of(kind), 0.0f);
         for (std::size_t i = 0; i < texels.size(); ++i) {
-            const double u = (static_cast<double>(i % kMap_px) + 0.5) / kMap_px * 2.0 - 1.0;
-            const double v = (static_cast<double>(i / kMap_px % kMap_px) + 0.5) / kMap_px * 2.0 - 1.0;
+            const double u = (static_cast<double>(i % kDrawnMap_px) + 0.5) / kDrawnMap_px * 2.0 - 1.0;
+            const double v = (static_cast<double>(i / kDrawnMap_px % kDrawnMap_px) + 0.5) / kDrawnMap_px * 2.0 - 1.0;
             double x = u;
             if (kind == LightKind::point) {
-                const shadow::CubeFace& face = shadow::cube_face(static_cast<std::uint32_t>(i / kMap_px / kMap_px));
+                const shadow::CubeFace& face = shadow::cube_face(static_cast<std::uint32_t>(i / kDrawnMap_px / kDrawnMap_px));
                 x = (face.axis_u * u + face.axis_v * v - face.axis_back).x;
             }
             if (x < 0.0) texels[i] = kMiddle;
@@ -328,7 +328,7 @@ TEST_P(VisibilityInclude, InAnyMapAtAnyPlaceItIsAShare) {
         SCOPED_TRACE(shadow::light_kind_row(kind).name);
         std::vector<float> texels(texels_of(kind));
         for (float& texel : texels) texel = depth(random);
-        std::vector<glm::vec3> points = places(kind, kNear_m, kFar_m);
+        std::vector<glm::vec3> points = places(kind, kMapNear_m, kMapFar_m);
         for (const float size : {0.0f, 1e-30f, 1e-6f, 0.999f, 9.0f, 9.001f, 1e6f, 1e18f})
             for (const glm::vec3 d : {glm::vec3(0, 0, -1), glm::vec3(0, 0, 1), glm::vec3(1, 1, -1), glm::vec3(-1, 1, 1), glm::vec3(1, 0, 0)})
                 points.push_back(size * d);

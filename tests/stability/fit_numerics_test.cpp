@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "systems/shadow/request/light_kinds.h"
+#include "tests/unit/shadow/in_map.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// The fits do not care how large the world is or where it lies, and stay finite whatever they are given.
@@ -11,11 +12,6 @@ namespace gnomon::shadow {
 namespace {
 
 class FitNumerics : public ::testing::TestWithParam<LightKind> {};
-
-glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
-    return glm::dvec3(q) / static_cast<double>(q.w);
-}
 
 /// Map coordinates but for a turn of the map by quarters: a sun's rectangle may start from any of its sides, and rounding
 /// decides which. What lies where in the map, and how deep, is the same.

@@ -12,7 +12,7 @@ using assets::kNone;
 using assets::SceneData;
 using testing::ElementsAre;
 
-SceneData loaded(const Bytes& bytes) {
+SceneData loaded_mesh(const Bytes& bytes) {
     Result<SceneData> result = load(bytes);
     EXPECT_TRUE(result) << to_line(result.error());
     return result ? std::move(result).value() : SceneData{};
@@ -21,8 +21,8 @@ SceneData loaded(const Bytes& bytes) {
 const std::vector<float> kQuad = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
 
 TEST(MeshImport, LoadsATriangleFromGltfAndFromGlbAlike) {
-    const SceneData text = loaded(triangle().gltf());
-    const SceneData binary = loaded(triangle().glb());
+    const SceneData text = loaded_mesh(triangle().gltf());
+    const SceneData binary = loaded_mesh(triangle().glb());
     for (const SceneData* scene : {&text, &binary}) {
         ASSERT_EQ(scene->meshes.size(), 1U);
         const assets::Mesh& mesh = scene->meshes[0];
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> indices_through() {
     const int position = builder.add_accessor<float>(kQuad, "VEC3");
     const int indices = builder.add_accessor<Index>({0, 1, 2, 2, 1, 3}, "SCALAR");
     builder.add_mesh({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
-    return loaded(builder.gltf()).meshes.at(0).indices;
+    return loaded_mesh(builder.gltf()).meshes.at(0).indices;
 }
 
 TEST(MeshImport, ReadsIndicesOfEveryWidth) {
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> triangles_of_mode(int mode, const std::vector<std::ui
     json primitive = {{"attributes", {{"POSITION", position}}}, {"mode", mode}};
     if (!corners.empty()) primitive["indices"] = builder.add_accessor<std::uint8_t>(corners, "SCALAR");
     builder.add_mesh(primitive);
-    return loaded(builder.gltf()).meshes.at(0).indices;
+    return loaded_mesh(builder.gltf()).meshes.at(0).indices;
 }
 
 TEST(MeshImport, TurnsStripsIntoTrianglesOfOneWinding) {
@@ -82,7 +82,7 @@ TEST(MeshImport, LeavesOutPointsAndLinesWithAWarning) {
     GltfBuilder builder = triangle();
     for (const int mode : {0, 1, 2, 3}) {
         builder.doc["meshes"][0]["primitives"][0]["mode"] = mode;
-        const SceneData scene = loaded(builder.gltf());
+        const SceneData scene = loaded_mesh(builder.gltf());
         EXPECT_THAT(scene.meshes.at(0).indices, testing::IsEmpty());
         EXPECT_THAT(scene.warnings, ElementsAre(testing::HasSubstr("points and lines")));
     }
@@ -91,7 +91,7 @@ TEST(MeshImport, LeavesOutPointsAndLinesWithAWarning) {
 TEST(MeshImport, ReadsIndicesWithoutABufferViewAsZero) {
     GltfBuilder builder = triangle();
     builder.doc["accessors"][1].erase("bufferView");
-    EXPECT_THAT(loaded(builder.gltf()).meshes.at(0).indices, ElementsAre(0U, 0U, 0U));
+    EXPECT_THAT(loaded_mesh(builder.gltf()).meshes.at(0).indices, ElementsAre(0U, 0U, 0U));
 }
 
 TEST(MeshImport, ReadsInterleavedAttributesByTheirStride) {
@@ -104,7 +104,7 @@ TEST(MeshImport, ReadsInterleavedAttributesByTheirStride) {
     shifted["byteOffset"] = 12;
     const int normal = builder.push("accessors", shifted);
     builder.add_mesh({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_mesh(builder.gltf());
     EXPECT_EQ(scene.meshes.at(0).vertices.at(2).position_ms, glm::vec3(0, 1, 0));
     EXPECT_EQ(scene.meshes.at(0).vertices.at(2).normal_ms, glm::vec3(0, 0, 1)) << "normals come out with unit length";
 }
@@ -113,7 +113,7 @@ TEST(MeshImport, FillsOnlyTheNormalsThatAreMissingOrZero) {
     GltfBuilder builder = triangle();
     const int normal = builder.add_accessor<float>({1, 0, 0, 0, 0, 0, 0, 1, 0}, "VEC3");
     builder.doc["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normal;
-    const auto mesh = loaded(builder.gltf()).meshes.at(0);
+    const auto mesh = loaded_mesh(builder.gltf()).meshes.at(0);
     EXPECT_EQ(mesh.vertices.at(0).normal_ms, glm::vec3(1, 0, 0));
     EXPECT_EQ(mesh.vertices.at(1).normal_ms, glm::vec3(0, 0, 1));
     EXPECT_EQ(mesh.vertices.at(2).normal_ms, glm::vec3(0, 1, 0));
@@ -124,7 +124,7 @@ glm::vec2 second_uv(const std::vector<T>& numbers, bool normalized) {
     GltfBuilder builder = triangle();
     const int uv = builder.add_accessor<T>(numbers, "VEC2", normalized);
     builder.doc["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uv;
-    return loaded(builder.gltf()).meshes.at(0).vertices.at(1).uv;
+    return loaded_mesh(builder.gltf()).meshes.at(0).vertices.at(1).uv;
 }
 
 TEST(MeshImport, ReadsTextureCoordinatesOfEveryType) {
@@ -142,7 +142,7 @@ assets::Vertex quantized_vertex(T value, bool normalized) {
     // Elements of three bytes or shorts are tightly packed here, which the specification discourages but allows to
     // read.
     builder.add_mesh({{"attributes", {{"POSITION", position}}}});
-    return loaded(builder.gltf()).meshes.at(0).vertices.at(1);
+    return loaded_mesh(builder.gltf()).meshes.at(0).vertices.at(1);
 }
 
 TEST(MeshImport, ReadsQuantizedPositions) {
@@ -162,7 +162,7 @@ TEST(MeshImport, PutsSparseValuesOverTheBase) {
     builder.doc["accessors"][0]["sparse"] = {{"count", 1},
                                              {"indices", {{"bufferView", indices}, {"componentType", kUByte}}},
                                              {"values", {{"bufferView", numbers}}}};
-    const auto mesh = loaded(builder.gltf()).meshes.at(0);
+    const auto mesh = loaded_mesh(builder.gltf()).meshes.at(0);
     EXPECT_EQ(mesh.vertices.at(1).position_ms, glm::vec3(1, 0, 0));
     EXPECT_EQ(mesh.vertices.at(2).position_ms, glm::vec3(0, 5, 0));
 }
@@ -177,7 +177,7 @@ TEST(MeshImport, StartsASparseAccessorWithoutABufferViewAtZero) {
     builder.doc["accessors"][0]["sparse"] = {{"count", 2},
                                              {"indices", {{"bufferView", indices}, {"componentType", kUShort}}},
                                              {"values", {{"bufferView", numbers}}}};
-    const auto mesh = loaded(builder.gltf()).meshes.at(0);
+    const auto mesh = loaded_mesh(builder.gltf()).meshes.at(0);
     EXPECT_EQ(mesh.vertices.at(0).position_ms, glm::vec3(0));
     EXPECT_EQ(mesh.vertices.at(1).position_ms, glm::vec3(4, 0, 0));
     EXPECT_EQ(mesh.vertices.at(2).position_ms, glm::vec3(0, 5, 0));
@@ -190,7 +190,7 @@ TEST(MeshImport, MakesOneSubmeshPerPrimitiveAndSharesVerticesOfTheSameAccessors)
     json second = primitives[0];
     second["material"] = 0;
     primitives.push_back(second);
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_mesh(builder.gltf());
     const auto& mesh = scene.meshes.at(0);
     EXPECT_EQ(mesh.vertices.size(), 3U);
     ASSERT_EQ(mesh.submeshes.size(), 2U);
@@ -206,14 +206,14 @@ TEST(MeshImport, RecomputesBoundsFromTheVerticesThatTrianglesUse) {
     builder.doc["accessors"][position]["max"] = {1e9, 1e9, 1e9};
     const int indices = builder.add_accessor<std::uint8_t>({0, 1, 2}, "SCALAR");
     builder.add_mesh({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
-    EXPECT_EQ(loaded(builder.gltf()).meshes.at(0).bounds_ms.max, glm::dvec3(1, 1, 0));
+    EXPECT_EQ(loaded_mesh(builder.gltf()).meshes.at(0).bounds_ms.max, glm::dvec3(1, 1, 0));
 }
 
 TEST(MeshImport, AcceptsWholeNumbersWrittenWithAFraction) {
     GltfBuilder builder = triangle();
     builder.doc["accessors"][1]["count"] = 3.0;
     builder.doc["nodes"][0]["mesh"] = 0.0;
-    EXPECT_EQ(loaded(builder.gltf()).nodes.at(0).mesh, 0);
+    EXPECT_EQ(loaded_mesh(builder.gltf()).nodes.at(0).mesh, 0);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using assets::SceneData;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-SceneData loaded(const Bytes& bytes) {
+SceneData loaded_scene(const Bytes& bytes) {
     Result<SceneData> result = load(bytes);
     EXPECT_TRUE(result) << to_line(result.error());
     return result ? std::move(result).value() : SceneData{};
@@ -40,7 +40,7 @@ TEST(SceneImport, KeepsTranslationRotationAndScale) {
     GltfBuilder builder = triangle();
     builder.doc["nodes"][0].update(
         {{"translation", {1.5, 1e8, -3}}, {"rotation", {0, 0, 2, 0}}, {"scale", {1, -2, 0.5}}, {"name", "thing"}});
-    const Node node = loaded(builder.gltf()).nodes.at(0);
+    const Node node = loaded_scene(builder.gltf()).nodes.at(0);
     EXPECT_EQ(node.name, "thing");
     EXPECT_EQ(node.translation_m, glm::dvec3(1.5, 1e8, -3));
     EXPECT_EQ(node.rotation, glm::dquat(0, 0, 0, 1)) << "w first, unit length";
@@ -58,7 +58,7 @@ TEST(SceneImport, DecomposesMatricesAlsoMirroredAndFlatOnes) {
         const glm::dmat4 matrix = glm::scale(turned, scale);
         GltfBuilder builder = triangle();
         builder.doc["nodes"][0]["matrix"] = numbers_of(matrix);
-        const Node node = loaded(builder.gltf()).nodes.at(0);
+        const Node node = loaded_scene(builder.gltf()).nodes.at(0);
         const double size = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z), 1.0});
         expect_same(matrix_of(node), matrix, 1e-9 * size);
         const int negative = int{node.scale.x < 0} + int{node.scale.y < 0} + int{node.scale.z < 0};
@@ -70,7 +70,7 @@ TEST(SceneImport, AcceptsMatricesWithTheRoundingOfFloats) {
     const glm::dmat4 exact = glm::scale(glm::rotate(glm::dmat4(1.0), 1.1, {3, -1, 2}), {7.0, 0.3, 2.0});
     GltfBuilder builder = triangle();
     builder.doc["nodes"][0]["matrix"] = numbers_of(glm::dmat4(glm::mat4(exact)));
-    expect_same(matrix_of(loaded(builder.gltf()).nodes.at(0)), exact, 1e-5);
+    expect_same(matrix_of(loaded_scene(builder.gltf()).nodes.at(0)), exact, 1e-5);
 }
 
 TEST(SceneImport, OrdersParentsBeforeChildrenDepthFirst) {
@@ -80,7 +80,7 @@ TEST(SceneImport, OrdersParentsBeforeChildrenDepthFirst) {
                                         {{"name", "other"}},
                                         {{"name", "branch"}, {"children", {4}}},
                                         {{"name", "twig"}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     std::vector<std::string> names;
     std::vector<int> parents;
     for (const Node& node : scene.nodes) {
@@ -95,9 +95,9 @@ TEST(SceneImport, ShowsTheDefaultSceneElseTheFirst) {
     GltfBuilder builder;
     builder.doc["nodes"] = json::array({{{"name", "a"}}, {{"name", "b"}}});
     builder.doc["scenes"] = json::array({{{"nodes", {0}}}, {{"nodes", {1}}}});
-    EXPECT_EQ(loaded(builder.gltf()).nodes.at(0).name, "a");
+    EXPECT_EQ(loaded_scene(builder.gltf()).nodes.at(0).name, "a");
     builder.doc["scene"] = 1;
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     ASSERT_EQ(scene.nodes.size(), 1U);
     EXPECT_EQ(scene.nodes[0].name, "b");
 }
@@ -106,7 +106,7 @@ TEST(SceneImport, ShowsASceneNodeThatHasAParentWithoutIt) {
     GltfBuilder builder;
     builder.doc["nodes"] = json::array({{{"name", "above"}, {"children", {1}}}, {{"name", "shown"}}});
     builder.doc["scenes"] = json::array({{{"nodes", {1}}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     ASSERT_EQ(scene.nodes.size(), 1U);
     EXPECT_EQ(scene.nodes[0].name, "shown");
     EXPECT_EQ(scene.nodes[0].parent, kNone);
@@ -116,7 +116,7 @@ TEST(SceneImport, ShowsASceneNodeThatHasAParentWithoutIt) {
 TEST(SceneImport, KeepsSeveralInstancesOfOneMesh) {
     GltfBuilder builder = triangle();
     builder.push("nodes", {{"mesh", 0}, {"translation", {3, 0, 0}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     EXPECT_EQ(scene.meshes.size(), 1U);
     ASSERT_EQ(scene.nodes.size(), 2U);
     EXPECT_EQ(scene.nodes[0].mesh, 0);
@@ -124,7 +124,7 @@ TEST(SceneImport, KeepsSeveralInstancesOfOneMesh) {
 }
 
 TEST(SceneImport, LoadsAFileWithoutAnyScene) {
-    const SceneData scene = loaded(GltfBuilder{}.gltf());
+    const SceneData scene = loaded_scene(GltfBuilder{}.gltf());
     EXPECT_TRUE(scene.nodes.empty());
     EXPECT_EQ(scene.materials.size(), 1U) << "there is always a material";
 }
@@ -145,7 +145,7 @@ TEST(SceneImport, ReadsPunctualLights) {
                      {{"type", "point"}, {"range", 7}},
                      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}, {"intensity", 0}},
                      {{"type", "spot"}, {"spot", json::object()}, {"extras", {{"shadow", false}}}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     ASSERT_EQ(scene.lights.size(), 4U);
     EXPECT_EQ(scene.lights[0].type, assets::LightType::directional);
     EXPECT_EQ(scene.lights[0].name, "sun");
@@ -168,7 +168,7 @@ TEST(SceneImport, LetsANodeOverrideTheShadowOfItsLightAlone) {
     json second = builder.doc["nodes"][0];
     second["extras"] = {{"shadow", false}};
     builder.push("nodes", second);
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     ASSERT_EQ(scene.nodes.size(), 2U);
     EXPECT_TRUE(scene.lights.at(static_cast<std::size_t>(scene.nodes[0].light)).casts_shadow);
     const auto& other = scene.lights.at(static_cast<std::size_t>(scene.nodes[1].light));
@@ -178,7 +178,7 @@ TEST(SceneImport, LetsANodeOverrideTheShadowOfItsLightAlone) {
 
 TEST(SceneImport, AcceptsASpotOfHalfASphereWrittenAsFloat) {
     const GltfBuilder builder = with_lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", double{1.57079637F}}}}}});
-    EXPECT_FLOAT_EQ(loaded(builder.gltf()).lights.at(0).outer_cone_rad, 1.57079637F);
+    EXPECT_FLOAT_EQ(loaded_scene(builder.gltf()).lights.at(0).outer_cone_rad, 1.57079637F);
 }
 
 TEST(SceneImport, ReadsCameras) {
@@ -189,7 +189,7 @@ TEST(SceneImport, ReadsCameras) {
     builder.push("cameras",
                  {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
     builder.push("nodes", {{"camera", 2}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     ASSERT_EQ(scene.cameras.size(), 3U);
     EXPECT_EQ(scene.cameras[0].name, "eye");
     EXPECT_EQ(scene.cameras[0].fov_y_rad, 0.8);
@@ -211,7 +211,7 @@ TEST(SceneImport, ReadsTheProjectsExtras) {
         {{"extras",
           {{"motion",
             {{"kind", "swing"}, {"axis", {0, 0, 2}}, {"amplitude", 0.5}, {"period_s", 4}, {"phase", 0.25}}}}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     EXPECT_FALSE(scene.nodes.at(0).casts_shadow);
     EXPECT_FALSE(scene.nodes[0].receives_shadow);
     EXPECT_FALSE(scene.nodes[0].visible);
@@ -236,7 +236,7 @@ TEST(SceneImport, IgnoresForeignExtrasWithAWarning) {
     for (const json& extras : foreign) {
         GltfBuilder builder;
         builder.push("nodes", {{"extras", extras}});
-        const SceneData scene = loaded(builder.gltf());
+        const SceneData scene = loaded_scene(builder.gltf());
         EXPECT_TRUE(scene.nodes.at(0).casts_shadow) << extras;
         EXPECT_EQ(scene.nodes[0].motion.kind, "") << extras;
         EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("ignored"))) << extras;

@@ -5,17 +5,14 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <random>
 
 #include "engine/math/frustum.h"
 #include "tests/unit/math/random_seed.h"
+#include "tests/unit/not_finite.h"
 
 namespace gnomon::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<glm::dvec3> clip(const Frustum& f, const Aabb& box) {
     std::vector<glm::dvec3> out;

@@ -5,16 +5,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <random>
 
 #include "tests/unit/math/random_seed.h"
+#include "tests/unit/not_finite.h"
 
 namespace gnomon::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool inside(const Frustum& f, const glm::dvec3& p) {
     for (std::uint32_t i = 0; i < f.plane_count; ++i) {

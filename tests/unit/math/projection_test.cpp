@@ -8,12 +8,10 @@
 #include <random>
 
 #include "tests/unit/math/random_seed.h"
+#include "tests/unit/not_finite.h"
 
 namespace gnomon::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 glm::dvec3 project(const glm::dmat4& m, const glm::dvec3& p) {
     const glm::dvec4 clip = m * glm::dvec4(p, 1.0);

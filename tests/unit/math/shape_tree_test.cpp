@@ -9,11 +9,10 @@
 #include <random>
 
 #include "tests/unit/math/random_seed.h"
+#include "tests/unit/not_finite.h"
 
 namespace gnomon::math {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Triangle = std::array<glm::vec3, 3>;
 
@@ -65,7 +64,7 @@ ShapeTree tree_of(const std::vector<Triangle>& triangles) {
     return ShapeTree(boxes);
 }
 
-bool inside(const Frustum& frustum, const glm::dvec3& p) {
+bool is_inside(const Frustum& frustum, const glm::dvec3& p) {
     const auto planes = planes_of(frustum);
     return std::all_of(planes.begin(), planes.end(),
                        [&](const Plane& plane) { return glm::dot(plane.normal, p) + plane.offset >= 0.0; });
@@ -88,7 +87,7 @@ double lowest_sample(const std::vector<Triangle>& triangles, const Frustum& frus
             if (i < 3) u = i == 1 ? 1.0 : 0.0, v = i == 2 ? 1.0 : 0.0;
             const glm::dvec3 a(t[0]), b(t[1]), c(t[2]);
             const glm::dvec3 p = a * (1.0 - u - v) + b * u + c * v;
-            if (inside(frustum, p)) lowest = std::min(lowest, at(ramp, p));
+            if (is_inside(frustum, p)) lowest = std::min(lowest, at(ramp, p));
         }
     return lowest;
 }

@@ -5,16 +5,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 
 #include "engine/mesh/mesh_shape.h"
 #include "systems/extract/scene_tree.h"
+#include "tests/unit/not_finite.h"
 #include "tests/unit/shadow/random_scene.h"
 
 namespace gnomon::shadow {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Meshes and where they stand. Their shapes are the scene's; a mesh may be left without one.
 struct Meshes {

@@ -4,17 +4,13 @@
 
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/light_kinds.h"
+#include "tests/unit/shadow/in_map.h"
 #include "tests/unit/shadow/random_scene.h"
 
 namespace gnomon::shadow {
 namespace {
 
 /// Map coordinates and depth as the shaders compute them: float matrix, float offset from the anchor.
-glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
-    return glm::dvec3(q) / static_cast<double>(q.w);
-}
-
 class FitTest : public ::testing::TestWithParam<LightKind> {
 protected:
     /// The view whose map the point is looked up in, and the margin it keeps there, in map edges.

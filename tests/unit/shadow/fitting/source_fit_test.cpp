@@ -11,7 +11,7 @@
 namespace gnomon::shadow {
 namespace {
 
-glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
+glm::dvec3 exact_in_map(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.pose.anchor_ws_m, 1.0);
     return q.w > 0.0 ? glm::dvec3(q) / q.w : glm::dvec3(-1.0);
 }
@@ -65,7 +65,7 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
                 continue;
             const ShadowView* view = nullptr;
             for (const ShadowView& v : frame.fitted.views) {
-                const glm::dvec3 q = in_map(v, p);
+                const glm::dvec3 q = exact_in_map(v, p);
                 // As shaders choose a cascade: as far from its border as may matter.
                 const double range_texel = kTan * (v.depth.far_m - v.depth.near_m) / std::min(v.plane.texel_u, v.plane.texel_v);
                 const double reads_texel = 3.0 + std::min(range_texel * (1.0 - q.z), kMost_texel);
@@ -78,7 +78,7 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
             const double aside_m = glm::length(b - p - axis * share);
             const double radius_m = kind == LightKind::directional ? kTan * share : kRadius_m * share;
             if (!(share > 1e-3 && aside_m < radius_m) || (kind != LightKind::directional && share > 0.95)) continue;
-            const glm::dvec3 q = in_map(*view, b), at = in_map(*view, p);
+            const glm::dvec3 q = exact_in_map(*view, b), at = exact_in_map(*view, p);
             const double texels = glm::length(glm::dvec2(q) - glm::dvec2(at)) * kMap_px;
             const bool sun = kind == LightKind::directional;
             const double read_texel = sun ? kMost_texel : std::min(kMost_texel, lamp_reads_texel(*view, p, kRadius_m));

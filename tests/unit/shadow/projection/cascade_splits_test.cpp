@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include "systems/extract/volumes.h"
 #include "systems/shadow/fitting/directional/slice_sphere.h"
 #include "tests/unit/math/random_seed.h"
+#include "tests/unit/not_finite.h"
 
 namespace gnomon::shadow {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 CascadeSplitDistances ends_of(const ShadowTuning::Cascades& tuning, std::uint32_t count, DepthSpan whole,
                     std::vector<DepthSpan> receivers = {}, bool perspective = true) {
@@ -79,8 +77,8 @@ TEST(Splits, OneThatIsSeenEverywhereChangesNothing) {
 
 TEST(Splits, AbsurdWishesAreNotTaken) {
     EXPECT_TRUE(are_splits({}));
-    for (const float bad : {-0.1f, 1.1f, kNan, kInfinity}) EXPECT_FALSE(are_splits({.split_lambda = bad})) << bad;
-    for (const float bad : {-0.1f, 0.6f, kNan}) EXPECT_FALSE(are_splits({.blend = bad})) << bad;
+    for (const float bad : {-0.1f, 1.1f, kFloatNan, kFloatInfinity}) EXPECT_FALSE(are_splits({.split_lambda = bad})) << bad;
+    for (const float bad : {-0.1f, 0.6f, kFloatNan}) EXPECT_FALSE(are_splits({.blend = bad})) << bad;
     const auto manual = [](std::array<float, kMaxCascades - 1> distances_m) {
         return are_splits({.splits = CascadeSplits::manual, .split_m = distances_m});
     };
@@ -89,8 +87,8 @@ TEST(Splits, AbsurdWishesAreNotTaken) {
     EXPECT_FALSE(manual({2.0f, 1.0f}));
     EXPECT_FALSE(manual({1.0f, 1.0f}));
     EXPECT_FALSE(manual({-1.0f}));
-    EXPECT_FALSE(manual({kNan}));
-    EXPECT_FALSE(manual({1.0f, kInfinity}));
+    EXPECT_FALSE(manual({kFloatNan}));
+    EXPECT_FALSE(manual({1.0f, kFloatInfinity}));
     EXPECT_EQ(cascade_count({.shadow = {.cascades = 99}}, 4), 8u);
     EXPECT_EQ(cascade_count({}, 4), 4u);
 }

@@ -1,18 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "systems/shadow/projection/depth_range_override.h"
 #include "systems/shadow/projection/sun_viewpoint.h"
 #include "systems/shadow/request/light_kinds.h"
+#include "tests/unit/not_finite.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// ShadowTuning::Projection, up to the views.
 namespace gnomon::shadow {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 glm::dvec4 clip_of(const ShadowView& view, const glm::dvec3& p_ws) {
     return glm::dvec4(view.clip_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f));
@@ -59,8 +57,8 @@ TEST(Projection, TheEyeStandsAsFarFromTheMiddleAsIsAsked) {
 TEST(Projection, WhatIsNoEyeIsNotTakenForOne) {
     EXPECT_TRUE(is_eye({}));
     EXPECT_TRUE(is_eye({.eye_distance_m = 1e9f, .eye_angle_rad = 2.7925268f}));
-    for (const float bad : {-1.0f, kNan, kInfinity}) EXPECT_FALSE(is_eye({.eye_distance_m = bad})) << bad;
-    for (const float bad : {0.0f, -1.0f, 2.8f, kNan, kInfinity}) EXPECT_FALSE(is_eye({.eye_angle_rad = bad})) << bad;
+    for (const float bad : {-1.0f, kFloatNan, kFloatInfinity}) EXPECT_FALSE(is_eye({.eye_distance_m = bad})) << bad;
+    for (const float bad : {0.0f, -1.0f, 2.8f, kFloatNan, kFloatInfinity}) EXPECT_FALSE(is_eye({.eye_angle_rad = bad})) << bad;
 }
 
 TEST(Projection, WhatIsNoRangeIsNotTakenForOne) {
@@ -68,7 +66,7 @@ TEST(Projection, WhatIsNoRangeIsNotTakenForOne) {
     EXPECT_TRUE(is_range({.near_m = 5.0f}));
     EXPECT_TRUE(is_range({.far_m = 1e-6f}));
     EXPECT_TRUE(is_range({.near_m = 1.0f, .far_m = 1.0001f}));
-    for (const float bad : {-1.0f, kNan, kInfinity, -kInfinity}) {
+    for (const float bad : {-1.0f, kFloatNan, kFloatInfinity, -kFloatInfinity}) {
         EXPECT_FALSE(is_range({.near_m = bad})) << bad;
         EXPECT_FALSE(is_range({.far_m = bad})) << bad;
     }
@@ -127,7 +125,7 @@ TEST_P(ProjectionOfKind, AbsurdRangesChangeNoViewAndAreNoted) {
     const ShadowFrame plain = fitted(scene);
     ASSERT_FALSE(plain.fitted.views.empty());
     for (const auto& [near_m, far_m] :
-         {std::pair(5.0f, 4.0f), {kNan, 0.0f}, {0.0f, -1.0f}, {kInfinity, 0.0f}, {2.0f, 2.0f}}) {
+         {std::pair(5.0f, 4.0f), {kFloatNan, 0.0f}, {0.0f, -1.0f}, {kFloatInfinity, 0.0f}, {2.0f, 2.0f}}) {
         scene.lights[0].tuning.projection.near_m = near_m;
         scene.lights[0].tuning.projection.far_m = far_m;
         const ShadowFrame frame = fitted(scene);

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "systems/shadow/request/filter_table.h"
+#include "tests/unit/not_finite.h"
 
 namespace gnomon::shadow {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kMap_px = 1024;
 
 /// A light of that filter.
@@ -111,7 +109,7 @@ TEST(FilterSettings, ASourceWithASizeReachesAsFarAsTheMapBearsAndMovesNoEdge) {
 }
 
 TEST(FilterSettings, ASourceThatIsAbsurdIsCutAndReported) {
-    for (const float absurd : {kNan, kInfinity, -1.0f, 1.0e30f})
+    for (const float absurd : {kFloatNan, kFloatInfinity, -1.0f, 1.0e30f})
         for (const LightKind kind : {LightKind::directional, LightKind::point}) {
             const FilterSettings filter = filter_settings(sized(kind, absurd), kMap_px);
             EXPECT_TRUE(filter.cut) << absurd;
@@ -145,7 +143,7 @@ TEST(FilterSettings, EachIsTakenUpToItsLimitAndCutToItBeyond) {
 }
 
 TEST(FilterSettings, NumbersThatAreNoneGiveWayToTheDefaultsAndAreReported) {
-    for (const float absurd : {kNan, kInfinity, -1.0f})
+    for (const float absurd : {kFloatNan, kFloatInfinity, -1.0f})
         for (const auto field : {&ShadowTuning::Kernel::spread_texel, &ShadowTuning::Kernel::spread_m,
                                  &ShadowTuning::Kernel::doubles_m, &ShadowTuning::Kernel::cell_m}) {
             LightItem light = of(ShadowFilter::poisson_rotated);
@@ -158,7 +156,7 @@ TEST(FilterSettings, NumbersThatAreNoneGiveWayToTheDefaultsAndAreReported) {
         }
     EXPECT_TRUE(filter_settings(of(ShadowFilter::poisson, {.taps = 0}), kMap_px).cut);
     EXPECT_EQ(filter_settings(of(ShadowFilter::poisson, {.taps = 99}), kMap_px).taps, kMostFilterTaps);
-    EXPECT_FALSE(filter_settings(of(ShadowFilter::hard, {.spread_m = kNan}), kMap_px).cut) << "it has no spread";
+    EXPECT_FALSE(filter_settings(of(ShadowFilter::hard, {.spread_m = kFloatNan}), kMap_px).cut) << "it has no spread";
 }
 
 }  // namespace

@@ -4,27 +4,25 @@
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 #include <vector>
 
 #include "systems/shadow/projection/orthographic_view.h"
 #include "systems/shadow/projection/perspective_view.h"
+#include "tests/unit/not_finite.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// How far off a map is that shows casters where they were.
 namespace gnomon::shadow {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 struct Placement {
     glm::dmat3 basis{1.0};
     glm::dvec3 translation_m{0.0};
 };
 
-class Moves {
+class RandomPlacements {
 public:
-    explicit Moves(std::uint64_t seed) : random(seed) {}
+    explicit RandomPlacements(std::uint64_t seed) : random(seed) {}
 
     /// Turned by up to so much, stretched a little, some of them mirrored.
     Placement anywhere(double reach_m) {
@@ -83,7 +81,7 @@ bool in_map(const ShadowView& view, const glm::dvec2& tangent) {
 }
 
 TEST(CasterShift, HoldsWhateverAnyPointOfACasterMoves) {
-    Moves moves(print_seed());
+    RandomPlacements moves(print_seed());
     RandomScene& random = moves.random;
     int judged = 0;
     for (int round = 0; round < 2000; ++round) {

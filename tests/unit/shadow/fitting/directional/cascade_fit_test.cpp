@@ -8,16 +8,12 @@
 #include "systems/shadow/request/accuracy_target.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "tests/unit/shadow/fitting/directional/cascade_waste.h"
+#include "tests/unit/shadow/in_map.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// What each ShadowFit promises.
 namespace gnomon::shadow {
 namespace {
-
-glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
-    return glm::dvec3(q) / static_cast<double>(q.w);
-}
 
 bool holds(const ShadowView& view, const glm::dvec3& p_ws, double margin) {
     const glm::dvec3 q = in_map(view, p_ws);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/shadow/projection/lispsm_math.h"
+#include "tests/unit/shadow/in_map.h"
 #include "tests/unit/shadow/random_scene.h"
 
 namespace gnomon::shadow {
@@ -41,11 +42,6 @@ SceneSnapshot floor_scene(double angle_rad, float warp) {
     light.rotation_ws = math::basis_from_back(along * std::cos(angle_rad) + up * std::sin(angle_rad));
     s.lights.push_back(light);
     return s;
-}
-
-glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
-    return glm::dvec3(q) / static_cast<double>(q.w);
 }
 
 /// But for turns of the map by quarters, which the unwarped fit makes as well.

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include "systems/shadow/projection/cascade_splits.h"
 #include "tests/unit/math/random_seed.h"
+#include "tests/unit/not_finite.h"
 
 /// From counts of pixels by view distance to the ends of cascades.
 namespace gnomon::shadow {
@@ -27,7 +27,7 @@ SampledDepths pixels_at(std::initializer_list<double> distances_m, std::uint32_t
     return depths;
 }
 
-ConsumerItem camera(CameraProjection projection = CameraProjection::perspective) {
+ConsumerItem counting_camera(CameraProjection projection = CameraProjection::perspective) {
     ConsumerItem consumer;
     consumer.entity = kCamera;
     consumer.projection = projection;
@@ -35,9 +35,8 @@ ConsumerItem camera(CameraProjection projection = CameraProjection::perspective)
 }
 
 constexpr DepthSpan kWhole{0.125, 1024.0};
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-CascadeSplitDistances ends_of(const SampledDepths& depths, std::uint32_t count, const ConsumerItem& consumer = camera(),
+CascadeSplitDistances ends_of(const SampledDepths& depths, std::uint32_t count, const ConsumerItem& consumer = counting_camera(),
                     double width_m = kInfinity) {
     CascadeSplitDistances ends{};
     EXPECT_TRUE(sampled_splits({depths, consumer, count, kWhole, width_m}, ends));
@@ -92,7 +91,7 @@ TEST(SampledDepths, NoOtherEndsAreBetter) {
         for (std::uint32_t n = 1 + below(20); n > 0; --n) depths.pixels[84 + below(52)] += 1 + below(1000);
         const bool flat = round % 4 == 0;
         const std::uint32_t count = 1 + below(kMaxCascades);
-        const ConsumerItem consumer = camera(flat ? CameraProjection::orthographic : CameraProjection::perspective);
+        const ConsumerItem consumer = counting_camera(flat ? CameraProjection::orthographic : CameraProjection::perspective);
         const SampledSplit split{depths, consumer, count, kWhole, round % 3 == 0 ? kInfinity : 10.0};
         CascadeSplitDistances best{};
         ASSERT_TRUE(sampled_splits(split, best));
@@ -112,7 +111,7 @@ TEST(SampledDepths, NoOtherEndsAreBetter) {
 
 TEST(SampledDepths, OnesThatSayNothingAreNotUsed) {
     CascadeSplitDistances ends{};
-    const ConsumerItem here = camera();
+    const ConsumerItem here = counting_camera();
     ConsumerItem other = here, nobody = here;
     other.entity = kOther;
     nobody.entity = ecs::kNull;
@@ -128,7 +127,7 @@ TEST(SampledDepths, OnesThatSayNothingAreNotUsed) {
 }
 
 TEST(SampledDepths, HeldEndsStayUntilOthersAreATenthBetter) {
-    const ConsumerItem here = camera();
+    const ConsumerItem here = counting_camera();
     SampledSplitHistory held, next;
     CascadeSplitDistances first{}, second{};
     const auto fit = [&](const SampledDepths& depths, CascadeSplitDistances& ends) {
@@ -147,10 +146,9 @@ TEST(SampledDepths, HeldEndsStayUntilOthersAreATenthBetter) {
 }
 
 TEST(SampledDepths, AbsurdHeldEndsNeitherFallNorLeaveTheWhole) {
-    const ConsumerItem here = camera();
+    const ConsumerItem here = counting_camera();
     const SampledDepths depths = pixels_at({1.0, 4.0, 16.0});
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    for (const CascadeSplitDistances& absurd : {CascadeSplitDistances{9.0, 8.0, 7.0, 6.0}, CascadeSplitDistances{kNan, kNan, kNan, kNan},
+        for (const CascadeSplitDistances& absurd : {CascadeSplitDistances{9.0, 8.0, 7.0, 6.0}, CascadeSplitDistances{kNan, kNan, kNan, kNan},
                                       CascadeSplitDistances{-5.0, 1e300, -1e300, 0.0}}) {
         SampledSplitHistory next;
         CascadeSplitDistances ends{};
