@@ -261,7 +261,7 @@ struct FrameSettings {
     std::uint32_t still_samples = 1;
     /// Number of the frame, for filters with random taps or rays; see View::noise_frame (gnomon/shadows.h). Samples of
     /// a still picture count on from it by themselves. 0: the same pattern in every frame. Set it where pictures are
-    /// averaged outside; each change of it begins still_samples anew.
+    /// averaged outside; each change of it restarts still_samples.
     std::uint32_t noise_frame = 0;
     /// Smooth stair-steps of edges by what the picture itself shows, while it has fewer than 8 samples per pixel.
     bool smooth_edges = false;

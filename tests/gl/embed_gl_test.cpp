@@ -140,6 +140,30 @@ TEST_F(EmbedTest, TwoDrawsOfALightShowTheBitsOfOne) {
     EXPECT_EQ(in_one, 1u);
 }
 
+/// A number of the frame moves random taps, and nothing else: no map is drawn for it.
+TEST_F(EmbedTest, ANumberOfTheFrameIsAPatternOfRandomTapsAlone) {
+    const auto pattern = [&](std::uint32_t noise_frame) {
+        view.noise_frame = noise_frame;
+        return masked();
+    };
+    make_engine(Depths::usual_float);
+    view.normal_texture = engine->normals;
+    add_room();
+    const glm::dvec3 at_m(1.5, 3.0, 1.0);
+    const LightId spot = add_shadowed(LightKind::spot, at_m);
+    look_from({0.5, 2.5, 4.0});
+    const std::vector<std::uint8_t> edges = pattern(0);
+    EXPECT_EQ(pattern(5), edges) << "triangles have no random taps";
+    shadows->set_light(spot, {.light = {.kind = LightKind::spot, .outer_cone_rad = 0.9f, .source_radius_m = 0.1f},
+                              .position_m = at_m, .direction = -at_m, .shadow = {.filter = ShadowFilter::pcss}});
+    const std::vector<std::uint8_t> first = pattern(0);
+    EXPECT_EQ(pattern(0), first);
+    EXPECT_GT(differing(pattern(5), first), 300u);
+    EXPECT_EQ(shadows->status().maps_drawn, 0u);
+    EXPECT_EQ(pattern(1024), first) << "numbers begin again";
+    EXPECT_EQ(pattern(5 + 3 * 1024), pattern(5));
+}
+
 TEST_F(EmbedTest, EightLightsAtOnceAreWhatRaysSay) {
     make_engine(Depths::usual_float);
     add_room();
