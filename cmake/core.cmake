@@ -7,6 +7,7 @@ set(GNOMON_CORE_SOURCES
   engine/math/cone.cpp
   engine/math/convex_polygon.cpp
   engine/math/frustum.cpp
+  engine/math/inner_hull.cpp
   engine/math/projection.cpp
   engine/math/shape_tree.cpp
   engine/mesh/complete_mesh.cpp
@@ -49,6 +50,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/request/occluder_pyramid.cpp
   systems/shadow/request/prefilter_settings.cpp
   systems/shadow/request/ray_limit.cpp
+  systems/shadow/culling/inner_receivers.cpp
   systems/shadow/culling/nearest_receiver.cpp
   systems/shadow/culling/receiver_caster_sets.cpp
   systems/shadow/culling/receiver_hull.cpp

@@ -3,11 +3,16 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 
 #include "gnomon/box.h"
 
 /// Functions of boxes. A default box is the neutral element of merged().
 namespace gnomon::math {
+
+/// Box around everything.
+inline constexpr Aabb kEverywhere{glm::dvec3(-std::numeric_limits<double>::infinity()),
+                                  glm::dvec3(std::numeric_limits<double>::infinity())};
 
 /// Returns true if all six numbers are finite.
 bool is_finite(const Aabb& b);

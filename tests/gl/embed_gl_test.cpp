@@ -140,7 +140,6 @@ TEST_F(EmbedTest, TwoDrawsOfALightShowTheBitsOfOne) {
     EXPECT_EQ(in_one, 1u);
 }
 
-/// A number of the frame moves random taps, and nothing else: no map is drawn for it.
 TEST_F(EmbedTest, ANumberOfTheFrameIsAPatternOfRandomTapsAlone) {
     const auto pattern = [&](std::uint32_t noise_frame) {
         view.noise_frame = noise_frame;

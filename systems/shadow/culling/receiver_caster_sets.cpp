@@ -8,6 +8,7 @@
 #include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/culling/inner_receivers.h"
 #include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/nearest_receiver.h"
 #include "systems/shadow/culling/receiver_hull.h"
@@ -26,6 +27,13 @@ using math::Overlap;
 
 IndexRange since(std::size_t first, std::size_t end) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
+}
+
+/// Returns a cube's face without what it shares with its neighbours. A wider frustum loses its sides.
+LightFrustum without_border(LightFrustum opening) {
+    opening.low = glm::max(opening.low, glm::dvec2(-1.0));
+    opening.high = glm::min(opening.high, glm::dvec2(1.0));
+    return opening;
 }
 
 /// Search for the receivers of one light.
@@ -55,6 +63,7 @@ private:
     /// Finds receivers with bounds in a camera's frustum and in the light's range, for each camera, by index.
     void find_candidates() {
         scratch_.candidates.clear();
+        scratch_.camera_candidates.clear();
         for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
             scratch_.marks.clear(scene_.instances.size());
             const auto planes = math::planes_of(out_.camera_frusta[c]);
@@ -68,32 +77,50 @@ private:
                 const InstanceItem& item = scene_.instances[i];
                 if (item.visible && receives_under(light_, item)) scratch_.marks.add(i);
             });
-            scratch_.marks.for_each([&](std::uint32_t i) { scratch_.candidates.push_back({i, c}); });
+            const std::size_t first = scratch_.candidates.size();
+            scratch_.marks.for_each([&](std::uint32_t i) { scratch_.candidates.push_back(i); });
+            scratch_.camera_candidates.push_back(since(first, scratch_.candidates.size()));
         }
     }
 
     /// Clips the candidates to their camera's frustum and the given planes, and appends the corners. Adds the numbers
-    /// of receivers and the cameras to `receiver_hull`.
-    IndexRange clip_candidates(std::span<const math::Plane> opening, ReceiverHull& receiver_hull) {
+    /// of receivers and the cameras to `receiver_hull`. `core`: ReceiverVolume::core.
+    IndexRange clip_candidates(std::span<const math::Plane> opening, std::span<const math::Plane> core,
+                               ReceiverHull& receiver_hull) {
         const std::size_t first = out_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
-        for (const SetScratch::Candidate& candidate : scratch_.candidates) {
-            const auto seen = math::planes_of(out_.camera_frusta[candidate.consumer]);
-            const auto middle = std::copy(seen.begin(), seen.end(), planes.begin());
-            const auto end = std::copy(opening.begin(), opening.end(), middle);
-            const math::Aabb box = reach_.clipped(scene_.instances[candidate.item].bounds_ws);
+        for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
+            const auto seen = math::planes_of(out_.camera_frusta[c]);
+            const auto end = std::copy(opening.begin(), opening.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
-            if (math::clip_box(used, box, out_.receiver_points_ws) == 0) continue;
-            scratch_.receivers.add(candidate.item);
-            receiver_hull.consumers |= consumer_bit(candidate.consumer);
-            ++receiver_hull.receivers;
+            const std::uint32_t found = clip_candidates_of(c, used, core);
+            if (found > 0) receiver_hull.consumers |= consumer_bit(c);
+            receiver_hull.receivers += found;
         }
         return since(first, out_.receiver_points_ws.size());
     }
 
+    /// Clips the candidates of one camera. Returns how many have a part inside of all planes.
+    std::uint32_t clip_candidates_of(std::uint32_t camera, std::span<const math::Plane> planes,
+                                     std::span<const math::Plane> core) {
+        const auto candidates = slice(scratch_.candidates, scratch_.camera_candidates[camera]);
+        const math::Aabb limit = reach_.bounds();
+        const SplitReceivers split = split_receivers(scene_, candidates, {planes, limit, core}, scratch_.split);
+        std::vector<glm::dvec3>& points_ws = out_.receiver_points_ws;
+        points_ws.insert(points_ws.end(), split.corners_ws_m.begin(), split.corners_ws_m.end());
+        for (const std::uint32_t i : split.inner) scratch_.receivers.add(i);
+        auto found = static_cast<std::uint32_t>(split.inner.size());
+        for (const std::uint32_t i : split.others) {
+            if (math::clip_box(planes, reach_.clipped(scene_.instances[i].bounds_ws), points_ws) == 0) continue;
+            scratch_.receivers.add(i);
+            ++found;
+        }
+        return found;
+    }
+
     void look_along_sun() {
         ReceiverHull seen;
-        const IndexRange range = clip_candidates({}, seen);
+        const IndexRange range = clip_candidates({}, {}, seen);
         if (range.count == 0) return;
         ReceiverHull receiver_hull =
             directional_hull(math::basis_from_back(light_.rotation_ws[2]), points(range), out_.outlines, scratch_);
@@ -105,14 +132,14 @@ private:
 
     void look_through(const LightFrustum& opening) {
         const glm::dvec3& lamp = lamp_ws_m_;
-        const auto sides = frustum_planes(lamp, opening);
+        const auto sides = frustum_planes(lamp, opening), core = frustum_planes(lamp, without_border(opening));
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
         const bool cone = light_facts(light_.kind).cone;
         if (cone) *end = {-back, glm::dot(back, lamp)};
         ReceiverHull seen, receiver_hull;
-        const IndexRange range = clip_candidates(std::span(planes).first(cone ? 5 : 4), seen);
+        const IndexRange range = clip_candidates(std::span(planes).first(cone ? 5 : 4), core, seen);
         if (range.count > 0) receiver_hull = frustum_hull(lamp, opening, points(range), out_.outlines, scratch_);
         receiver_hull.origin_ws_m = lamp;
         receiver_hull.axes = opening.axes;

@@ -24,6 +24,9 @@ public:
         used_[word / kBits] |= std::uint64_t{1} << word % kBits;
     }
 
+    /// Returns whether an index below the `count` of clear() is in the set.
+    bool contains(std::uint32_t i) const { return (words_[i / kBits] >> i % kBits & 1) != 0; }
+
     template <class Visit>
     void for_each(Visit&& visit) const {
         for_each_bit(used_, [&](std::size_t word) {

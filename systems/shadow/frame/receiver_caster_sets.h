@@ -8,6 +8,7 @@
 #include "engine/math/frustum.h"
 #include "systems/shadow/frame/index_range.h"
 #include "systems/shadow/frame/index_set.h"
+#include "systems/shadow/frame/split_scratch.h"
 
 namespace gnomon::shadow {
 
@@ -75,11 +76,10 @@ inline void ReceiverCasterSets::clear() {
 
 /// Reused storage of the search for receivers and casters; its contents are meaningless between two searches.
 struct SetScratch {
-    struct Candidate {
-        std::uint32_t item, consumer;
-    };
     IndexSet marks, receivers;  // sets of instances
-    std::vector<Candidate> candidates;
+    std::vector<std::uint32_t> candidates;      // receivers that a camera sees, camera by camera
+    std::vector<IndexRange> camera_candidates;  // range of `candidates` for each camera
+    SplitScratch split;
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, polygon, clipped, outline;
     std::vector<std::uint32_t> items, mesh_starts;

@@ -132,6 +132,7 @@ struct FitScratch {
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, hull, outline, profile;
     std::vector<DepthSpan> depths;
+    SplitScratch split;
 };
 
 }  // namespace gnomon::shadow

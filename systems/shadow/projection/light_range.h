@@ -20,6 +20,8 @@ public:
     math::Overlap overlap(const math::Aabb& box) const;
     /// Returns the part of a box within the range's bounding box.
     math::Aabb clipped(const math::Aabb& box) const { return range_m_ ? math::intersection(box, around_) : box; }
+    /// Returns the range's bounding box; infinite for an unlimited one.
+    math::Aabb bounds() const { return range_m_ ? around_ : math::kEverywhere; }
     /// Returns planes around a spot's cone; none for other lights.
     std::span<const math::Plane> cone() const;
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "systems/extract/volumes.h"
+#include "systems/shadow/culling/inner_receivers.h"
 #include "systems/shadow/fitting/directional/cascade_fit.h"
 #include "systems/shadow/fitting/directional/cascade_slices.h"
 #include "systems/shadow/fitting/directional/caster_depth_range.h"
@@ -100,7 +101,11 @@ std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerI
     receivers = 0;
     if (!(slice.holds_from_m < slice.holds_to_m)) return {};
     const math::Frustum frustum = consumer_frustum(consumer, slice.holds_from_m, slice.holds_to_m);
-    for (const std::uint32_t r : input.receivers)
+    const SplitReceivers split =
+        split_receivers(input.scene, input.receivers, {math::planes_of(frustum)}, input.scratch.split);
+    points_ws.assign(split.corners_ws_m.begin(), split.corners_ws_m.end());
+    receivers = static_cast<std::uint32_t>(split.inner.size());
+    for (const std::uint32_t r : split.others)
         receivers += math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws) > 0 ? 1 : 0;
     return points_ws;
 }
