@@ -27,7 +27,7 @@ MeshBvh::MeshBvh(const assets::Mesh& mesh, std::span<const assets::Vertex> verti
     triangles_.reserve(mesh.indices.size() / 3);
     for (const assets::Submesh& part : mesh.submeshes) {
         const assets::AlphaMode mode = materials[part.material].alpha_mode;
-        if (mode == assets::AlphaMode::blend) continue;
+        if (assets::transmits(materials[part.material])) continue;
         BvhTriangle triangle;
         if (mode == assets::AlphaMode::mask) triangle.mask = part.material;
         for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {

@@ -23,7 +23,7 @@ struct BvhTriangle {
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
-/// Tree over the triangles of a mesh that block light, in mesh space. Excludes blended triangles, and those of a rigid
+/// Tree over the triangles of a mesh that block light, in mesh space. Excludes translucent triangles, and those of a rigid
 /// mesh with a corner that is not finite. A deformed mesh's triangles follow its vertices, rounded to float once, as on
 /// the GPU.
 class MeshBvh {

@@ -53,6 +53,18 @@ std::vector<std::string> shared_defines(const SharedRow& row) {
             flag("SHADOW_LINEAR_TAPS", row.linear_taps), "SHADOW_REACH_TEXEL " + row.reach_texel};
 }
 
+std::string_view tint_file(TintLookup tint) {
+    switch (tint) {
+        case TintLookup::none:
+            break;
+        case TintLookup::layers:
+            return "shadow/lookup/tint/layers.glsl";
+        case TintLookup::rays:
+            return "shadow/lookup/tint/rays.glsl";
+    }
+    return "shadow/lookup/tint/none.glsl";
+}
+
 std::string row_glsl(const ShaderKey& row) {
     if (row.filter_file.empty()) return {};
     std::string text;
