@@ -52,6 +52,7 @@ protected:
     struct Errors {
         double mean = 0.0, most = 0.0;
         std::size_t pixels = 0, tinted = 0;  // tinted: by rays
+        std::size_t beyond = 0;              // off by more than 1/255
         glm::dvec3 darkest{1.0};             // by rays
     };
     Errors errors(std::uint32_t light = 0) {
@@ -68,6 +69,7 @@ protected:
             found.mean += (off.x + off.y + off.z) / 3.0;
             found.most = std::max({found.most, off.x, off.y, off.z});
             ++found.pixels;
+            found.beyond += std::max({off.x, off.y, off.z}) > 1.0 ? 1 : 0;
             found.tinted += truth[i] != glm::dvec3(1.0) ? 1 : 0;
             found.darkest = glm::min(found.darkest, truth[i]);
         }

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 #include <iostream>
 
@@ -142,8 +143,12 @@ TEST_P(Tints, FollowTheAlphaOfBlendedSurfaces) {
     add_ground();
     look_down();
     add_lamp();
-    assets::Texture stripes{.name = "stripes", .width = 4, .height = 1};
-    for (const int alpha : {0, 255, 128, 64}) stripes.rgba.insert(stripes.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(alpha)});
+    assets::Texture stripes;
+    stripes.name = "stripes";
+    stripes.width = 4;
+    stripes.height = 1;
+    for (const unsigned char alpha : std::initializer_list<unsigned char>{0, 255, 128, 64})
+        stripes.rgba.insert(stripes.rgba.end(), {std::uint8_t{255}, std::uint8_t{255}, std::uint8_t{255}, alpha});
     library.textures.push_back(stripes);
     assets::Material film_of_stripes = film(0.8f);
     film_of_stripes.base_colour_texture = 0;
@@ -185,18 +190,28 @@ TEST_P(Tints, FollowMovedPanes) {
 }
 
 TEST_F(TintTest, CostsNothingWithoutTranslucentCasters) {
-    add_ground();
-    look_down();
-    add_light_of(LightKind::spot, kLamp_m, {.resolution_px = 512});
-    place(add_analysed(game::make_box({-0.4, 0.5, -0.4}, {0.4, 1.2, 0.4}), 0));
-    draw();
-    const LightCounts without = frame().report().lights[0].counts;
-    const std::uint64_t programs = device().compiled_programs();
-    edit_light(world, frame().snapshot().lights[0].entity, [](LightShadow& s) { s.translucent_casters = false; });
-    draw();
-    draw();
-    EXPECT_EQ(frame().report().lights[0].counts.bytes, without.bytes);
-    EXPECT_EQ(device().compiled_programs(), programs);
+    LightCounts counts[3];
+    std::uint64_t programs[3];
+    for (int way = 0; way < 3; ++way) {
+        start_anew();
+        add_material({.name = "matt", .metallic = 0.0f});
+        add_ground();
+        look_down();
+        add_light_of(LightKind::spot, kLamp_m, LightShadow{.resolution_px = 512, .translucent_casters = way > 0});
+        place(add_analysed(game::make_box({-0.4, 0.5, -0.4}, {0.4, 1.2, 0.4}), 0));
+        if (way == 2) add_pane(glass(kRed), {0.0, 2.0, 0.0}, 1.0);
+        const std::uint64_t before = device().compiled_programs();
+        draw();
+        programs[way] = device().compiled_programs() - before;
+        counts[way] = frame().report().lights[0].counts;
+    }
+    EXPECT_EQ(counts[0].bytes, counts[1].bytes);
+    EXPECT_EQ(counts[0].draws, counts[1].draws);
+    EXPECT_EQ(programs[0], programs[1]);
+    // With a pane all of these grow.
+    EXPECT_GT(counts[2].bytes, counts[1].bytes);
+    EXPECT_GT(counts[2].draws, counts[1].draws);
+    EXPECT_GT(programs[2], programs[1]);
 }
 
 TEST_F(TintTest, CountsItsBytesAndDraws) {
@@ -225,6 +240,81 @@ TEST_F(TintTest, TakesNoNumbersThatAreNone) {
     draw();
     for (const glm::vec4& value : tint())
         for (int i = 0; i < 3; ++i) EXPECT_TRUE(value[i] >= 0.0f && value[i] <= 1.0f);
+}
+
+/// Lights by rays, against rays in double.
+class RayTints : public TintTest, public ::testing::WithParamInterface<LightKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, RayTints,
+                         ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
+                         [](const auto& test) { return kind_name(test.param); });
+
+/// Share of pixels that may be off by more than 1/255: those whose ray meets an edge to within a float.
+constexpr double kOnEdges = 2.0e-4;
+
+TEST_P(RayTints, AreThoseOfTheTracer) {
+    add_ground();
+    look_down();
+    add_light_of(GetParam(), kLamp_m, {.filter = ShadowFilter::exact});
+    assets::Texture spots;
+    spots.name = "spots";
+    spots.width = spots.height = 2;
+    spots.rgba = {255, 40, 20, 255, 90, 200, 255, 128, 10, 250, 90, 0, 240, 240, 30, 200};
+    library.textures.push_back(spots);
+    assets::Material print = film(0.9f);
+    print.base_colour_texture = 0;
+    print.transmission = glm::vec3(0.5f);
+    turn = glm::angleAxis(0.4, glm::normalize(glm::dvec3(0.2, 1.0, 0.3)));
+    add_pane(print, {0.0, 1.2, 0.0}, 1.7);
+    add_pane(glass(kRed), {-0.5, 2.0, 0.2}, 1.2);
+    add_pane(glass(kGreen), {0.4, 2.6, -0.1}, 1.2);
+    const std::uint32_t ball = add_mesh(game::make_box({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}), add_material(glass(kBlue)));
+    world.patch<MeshRef>(place(ball, {.translation_m = {0.9, 3.1, 0.5}, .rotation = turn}),
+                         [](MeshRef& m) { m.visible = false; });
+    place(add_mesh(game::make_card({0.4, 2.3, 0.9}, {0.8, 0.0, 0.0}, {0.0, 0.0, -0.8}), 0));
+    for (int round = 0; round < 2; ++round) {  // the second one reads kept visibility
+        draw();
+        const Errors found = errors();
+        std::cout << "rays: mean " << found.mean << "/255, most " << found.most << ", beyond 1/255 " << found.beyond
+                  << " of " << found.pixels << ", tinted " << found.tinted << '\n';
+        EXPECT_GT(found.tinted, found.pixels / 50);
+        EXPECT_LE(static_cast<double>(found.beyond), kOnEdges * static_cast<double>(found.pixels));
+    }
+    // A control: without rays' tints the light is white.
+    edit_light(world, frame().snapshot().lights[0].entity, [](LightShadow& s) { s.translucent_casters = false; });
+    draw();
+    EXPECT_GT(errors().mean, kMostMean);
+}
+
+TEST_P(RayTints, CountASharedEdgeOnce) {
+    add_ground();
+    look_down();
+    add_light_of(GetParam(), {0.0, 8.0, 0.0}, {.filter = ShadowFilter::exact});
+    // Its diagonal lies in a plane through the lamp and a row of pixels.
+    add_pane(glass(kRed), {0.0, 2.0, 0.0}, 1.0);
+    draw();
+    const std::vector<glm::vec4> drawn = tint();
+    for (const glm::vec4& value : drawn)
+        EXPECT_TRUE(value.g == 1.0f || std::abs(value.g - kRed.g) < 1.0e-3f) << value.g;
+}
+
+TEST_P(RayTints, AreTheSameBitsInAnyOrder) {
+    std::vector<glm::vec4> pictures[2];
+    for (int order = 0; order < 2; ++order) {
+        start_anew();
+        add_material({.name = "matt", .metallic = 0.0f});
+        add_ground();
+        look_down();
+        add_light_of(GetParam(), kLamp_m, {.filter = ShadowFilter::exact});
+        for (int i = 0; i < 6; ++i) {
+            const double at = order == 0 ? i : 5 - i;
+            add_pane(glass(glm::vec3(0.5f) + 0.08f * static_cast<float>(at)), {0.1 * at, 1.0 + 0.5 * at, 0.0}, 1.0);
+        }
+        draw();
+        pictures[order] = tint();
+    }
+    ASSERT_EQ(pictures[0].size(), pictures[1].size());
+    EXPECT_EQ(0, std::memcmp(pictures[0].data(), pictures[1].data(), pictures[0].size() * sizeof(glm::vec4)));
 }
 
 }  // namespace

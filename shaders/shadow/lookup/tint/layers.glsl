@@ -78,13 +78,13 @@ vec3 shadow_tint(vec3 position_ca, vec3 normal, float error_m) {
     float nearer = view.numeric.x + 7.0 * kUnitRoundoff * place.map.z + off_m * depth_per_m + kRasterSnap_texel * (abs(slope.x) + abs(slope.y));
     vec2 at_texel = place.map.xy * size_texel - 0.5;
     vec2 corner = floor(at_texel), share = at_texel - floor(at_texel);
-    vec3 passed = vec3(0.0);
+    vec3 taken = vec3(0.0);   // where nothing is in the way it is exactly 0
     for (int i = 0; i < 4; ++i) {
         vec2 step_texel = vec2(float(i & 1), float(i >> 1));
         vec2 texel = clamp(corner + step_texel, 0.0, size_texel - 1.0);
         vec2 weights = mix(1.0 - share, share, step_texel);
         float depth = place.map.z + nearer + dot(slope, texel - at_texel);
-        passed += weights.x * weights.y * passed_texel(ivec2(texel), layer, depth);
+        taken += weights.x * weights.y * (1.0 - passed_texel(ivec2(texel), layer, depth));
     }
-    return passed;
+    return max(1.0 - taken, 0.0);
 }
