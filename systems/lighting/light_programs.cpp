@@ -155,7 +155,6 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     std::vector<std::string> defines = shadow::program_defines(row);
     const bool found_before = row.filter_file.empty() && row.sheets;
     defines.push_back("VISIBLE_SHARE \"" + std::string(visible_share_file(output, found_before)) + "\"");
-    if (reads_tint(output)) defines.push_back("SHADOW_TINT \"" + std::string(shadow::tint_file(row.tint)) + "\"");
     if (is_forward(output) && coloured_) defines.emplace_back("COLOURED 1");
     if (output == ShaderPass::catcher) defines.emplace_back("INVARIANT_POSITION 1");
     if (output == ShaderPass::crossed_areas) defines.emplace_back("AREAS_ALONE 1");

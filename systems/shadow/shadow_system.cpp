@@ -227,7 +227,8 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     finish("passes");
 
     const bool masked = static_cast<bool>(gpu.caster_masks());
-    publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), f.tints, f.ray_tints, tint_scene_.buffer(), masked},
+    publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked, f.tints, f.ray_tints,
+                    tint_scene_.buffer()},
                    f.inputs,
                    f.cpu_us);
     finish("publish");

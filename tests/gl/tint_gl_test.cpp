@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "tests/gl/tint_fixture.h"
+#include "tests/oracle/light_reach.h"
 
 /// Light that translucent casters let through, by maps, against rays.
 namespace gnomon {
@@ -296,6 +297,44 @@ TEST_P(RayTints, CountASharedEdgeOnce) {
     const std::vector<glm::vec4> drawn = tint();
     for (const glm::vec4& value : drawn)
         EXPECT_TRUE(value.g == 1.0f || std::abs(value.g - kRed.g) < 1.0e-3f) << value.g;
+}
+
+TEST_P(RayTints, OfASourceAreTheMeanOverIt) {
+    if (GetParam() == LightKind::directional) GTEST_SKIP() << "a sun's disk is a lamp's, turned";
+    add_ground();
+    look_down();
+    const float radius_m = 0.6f;
+    const ecs::Entity lamp = add_light_of(GetParam(), kLamp_m, {.filter = ShadowFilter::exact_soft});
+    edit_light(world, lamp, [&](Light& light) { light.source_radius_m = radius_m; });
+    add_pane(glass(kGreen), {0.0, 3.0, 0.0}, 1.2);
+    draw();
+    const std::vector<glm::vec4> drawn = tint();
+    // Truth: the mean of many points of the disk that faces the middle of the ground.
+    const SceneSnapshot& scene = frame().snapshot();
+    const ConsumerItem& eye = scene.consumers.at(0);
+    const oracle::ReferenceTracer tracer(scene, library, eye.position_ws_m);
+    const oracle::PrimaryHits hits = tracer.trace_primary(eye);
+    const glm::dvec3 facing = glm::normalize(kLamp_m);
+    const std::array<glm::dvec3, 2> across = oracle::tangents(facing);
+    constexpr int kPlaces = 96;
+    std::vector<double> mean(drawn.size(), 0.0);
+    for (int i = 0; i < kPlaces; ++i) {
+        const double r = radius_m * std::sqrt((i + 0.5) / kPlaces), angle = 3.7 * i;
+        LightItem moved = scene.lights[0];
+        moved.position_ws_m += across[0] * (r * std::cos(angle)) + across[1] * (r * std::sin(angle));
+        const auto truth = oracle::trace_tint(scene, library, eye.position_ws_m, hits, moved);
+        for (std::size_t p = 0; p < mean.size(); ++p) mean[p] += truth[p].r / kPlaces;
+    }
+    double off = 0.0;
+    std::size_t between = 0, pixels = 0;
+    for (std::size_t p = 0; p < mean.size(); ++p) {
+        if (hits.triangle[p] == oracle::kNoTriangle) continue;
+        ++pixels;
+        off += std::abs(mean[p] - static_cast<double>(drawn[p].r));
+        between += drawn[p].r > 0.4f && drawn[p].r < 0.9f ? 1 : 0;
+    }
+    EXPECT_GT(between, pixels / 100) << "a penumbra";
+    EXPECT_LE(255.0 * off / static_cast<double>(pixels), 1.0);
 }
 
 TEST_P(RayTints, AreTheSameBitsInAnyOrder) {

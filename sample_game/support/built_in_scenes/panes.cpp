@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPane_m = 0.9, kBar_m = 0.06;  // edge of a pane of the window, and half of a lead bar
 constexpr int kColumns = 4, kRows = 2;
-constexpr float kCover = 0.8f;  // share of a pane that is glass of its colour
+constexpr float kCover = 0.94f;  // share of a pane that is glass of its colour
 
 struct Glass {
     const char* name;
@@ -90,12 +90,12 @@ std::vector<std::byte> make_panes() {
     const glm::dvec3 from_sun(0.25, -0.62, 0.74);
     const std::uint32_t sun = glb.add_light({.type = "directional", .intensity = 20000.0});
     glb.add_node({.name = "sun", .translation_m = -20.0 * from_sun, .rotation = facing(from_sun), .light = sun});
-    const std::uint32_t spot = glb.add_light({.type = "spot", .intensity = 60000.0, .cone = ConeSpec{0.3, 0.5}});
-    const glm::dvec3 spot_m(4.6, 5.0, 3.4), toward(-1.5, -5.0, -1.7);
+    const std::uint32_t spot = glb.add_light({.type = "spot", .intensity = 150000.0, .cone = ConeSpec{0.22, 0.3}});
+    const glm::dvec3 spot_m(4.4, 5.0, 1.0), toward(-1.3, -5.0, 0.9);
     glb.add_node({.name = "spot", .translation_m = spot_m, .rotation = facing(toward), .light = spot});
     const std::uint32_t camera = glb.add_camera({.name = "main", .fov_y_rad = glm::radians(42.0), .near_m = 0.1});
-    const glm::dvec3 at_m(1.6, 4.6, 8.6);
-    glb.add_node({.name = "main", .translation_m = at_m, .rotation = facing(glm::dvec3(0.8, 0.5, 0.8) - at_m), .camera = camera});
+    const glm::dvec3 at_m(2.2, 4.0, 7.2);
+    glb.add_node({.name = "main", .translation_m = at_m, .rotation = facing(glm::dvec3(1.1, 0.6, 1.0) - at_m), .camera = camera});
     return glb.finish({.name = "panes"});
 }
 

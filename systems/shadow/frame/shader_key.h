@@ -36,9 +36,6 @@ struct ShaderKey {
 /// outputs'.
 std::vector<std::string> program_defines(const ShaderKey& row);
 
-/// Returns the file under shaders/ that programs which add light include as SHADOW_TINT.
-std::string_view tint_file(TintLookup tint);
-
 /// Returns the text that they include as "row.glsl": the kind's file and the filter's, and the camera's block where
 /// those read it. Empty if the light is unshadowed.
 std::string row_glsl(const ShaderKey& row);

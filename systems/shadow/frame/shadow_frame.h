@@ -33,7 +33,7 @@ struct ShadowFrame {
     std::vector<MapAssignment> maps;        // one per view
     std::vector<UpdatePlan> updates;        // one per view
     std::vector<TintAssignment> tints;      // one per view; empty: no view has translucent casters
-    std::vector<bool> ray_tints;            // one per light: its rays meet translucent casters; empty: no light's do
+    std::vector<std::uint8_t> ray_tints;    // one per light: 1: its rays meet translucent casters; empty: no light's do
     std::vector<double> clearances_m;       // one per light: nearest caster of an area light that no map contains
     std::vector<LightingInputs> inputs;     // one per camera view
     History next_history;                   // history of fits and budget for the next frame

@@ -64,15 +64,15 @@ bool is_translucent(const GpuScene& gpu, std::uint32_t mesh) {
 }
 
 void list_ray_tints(const SceneSnapshot& scene, const GpuScene& gpu, const DrawnViews& drawn,
-                    const ReceiverCasterSets& sets, std::vector<bool>& lights) {
+                    const ReceiverCasterSets& sets, std::vector<std::uint8_t>& lights) {
     lights.clear();
     for (std::uint32_t i = 0; i < scene.lights.size() && gpu.any_transmits(); ++i) {
         if (!scene.lights[i].shadow.translucent_casters || drawn.statuses[i].is_skipped() ||
             !drawn.lights[i].request.rays.used ||
             !any_translucent(scene, gpu, drawn.fitted.sets_of(sets, i).casters()))
             continue;
-        lights.resize(scene.lights.size(), false);
-        lights[i] = true;
+        lights.resize(scene.lights.size(), 0);
+        lights[i] = 1;
     }
 }
 

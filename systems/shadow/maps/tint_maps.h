@@ -24,9 +24,9 @@ std::uint32_t tint_edge_px(std::uint32_t map_edge_px, std::uint32_t views);
 /// Returns true if an instance of the mesh is a translucent caster: any of its surfaces transmits light.
 bool is_translucent(const GpuScene& gpu, std::uint32_t mesh);
 
-/// Lists the lights with rays that have translucent casters in their sets: true for each of these. Empty: there is none.
+/// Lists the lights with rays that have translucent casters in their sets: 1 for each of these. Empty: there is none.
 void list_ray_tints(const SceneSnapshot& scene, const GpuScene& gpu, const DrawnViews& drawn,
-                    const ReceiverCasterSets& sets, std::vector<bool>& lights);
+                    const ReceiverCasterSets& sets, std::vector<std::uint8_t>& lights);
 
 /// Layers of translucent casters beside the maps of lights that have such casters. Owns the device objects. A scene
 /// without such casters has none.

@@ -45,10 +45,10 @@ struct PublishInputs {
     std::span<const double> clearances_m;    // one per light (exact/near_light_clearance.h)
     const MapSamplers& samplers;
     const visibility::RayBuffers& rays;  // nodes {0}: no light can use rays
-    std::span<const TintAssignment> tints;  // one per view; empty: no light has translucent casters in its maps
-    const std::vector<bool>& ray_tints;     // ShadowFrame::ray_tints
-    gl::BufferHandle tint_tree;             // for these lights
     bool masked = false;                 // GpuScene::caster_masks() has masks for lights that read triangles
+    std::span<const TintAssignment> tints = {};     // one per view; empty: no light has translucent casters in its maps
+    std::span<const std::uint8_t> ray_tints = {};   // ShadowFrame::ray_tints
+    gl::BufferHandle tint_tree = {};                // for these lights
 };
 
 /// Publishes, for each camera that draws, each light with its program row, record and textures (stage 6). A light
