@@ -183,7 +183,7 @@ double member_of(const json& extension, const char* name, double otherwise) {
 }
 
 /// Returns the share of light that passes a surface (KHR_materials_transmission), after half of the body's thickness
-/// (KHR_materials_volume): a body with a volume is closed, so that light crosses two of its surfaces. Textures of both
+/// (KHR_materials_volume). A body with a volume is closed, so that light crosses two of its surfaces. Textures of both
 /// extensions are left out, with a warning.
 glm::vec3 transmission_of(Document& document, const json& raw, const std::string& where) {
     const nlohmann::json::json_pointer transmission_path("/extensions/KHR_materials_transmission");

@@ -347,7 +347,7 @@ bool LightingSystem::record_tint(const shadow::LightingInputs& inputs, std::uint
     bind_surface_textures(list);
     list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
                               sizeof(shadow::LightRecord)});
-    bind_tint(item.tint, item.tint_tree, list);
+    bind_tint(item.tint, list);
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::EndGroup{});

@@ -60,7 +60,7 @@ public:
 
     /// Returns the mask, r8; {0} before the first record(). Another texture after a change of size or number of layers.
     gl::TextureHandle texture() const { return mask_; }
-    /// Returns the colours that translucent casters let through, rgba8, with the same layers; {0}: no light of the last
+    /// Returns the colours that translucent casters let through, rgba8, with the same layers. {0}: no light of the last
     /// record() has such casters, or the device has no room for them.
     gl::TextureHandle tint_texture() const { return tints_; }
     std::uint32_t layer_count() const { return static_cast<std::uint32_t>(targets_.size()); }

@@ -29,7 +29,7 @@ struct TintTriangle {
     std::uint32_t layers = 0;             // bits of the lights that it tints
     std::uint32_t material = 0;           // offset of its TintMaterial
     float uv[6] = {};
-    float colours[12] = {};  // of its corners; 1 where the mesh has none
+    float colours[12] = {};  // colours of its corners; 1 where the mesh has none
 };
 static_assert(sizeof(TintTriangle) == 116);
 
@@ -48,7 +48,7 @@ struct TintMaterial {
 static_assert(sizeof(TintMaterial) == 64);
 
 /// Tree over the translucent triangles of a scene, with their materials and textures, in one storage buffer for rays in
-/// shaders. There are few of them: it is built anew when anything of the scene moves. Uses no memory before the first
+/// shaders. There are few of them: any change of the scene builds it again. Uses no memory before the first
 /// update().
 class TintScene {
 public:

@@ -54,16 +54,19 @@ TEST_P(EmbedTint, IsWhatTheFrameShows) {
     draw();
     std::vector<glm::vec4> shown;
     ASSERT_TRUE(frame().read_tint(0, shown));
-    std::size_t tinted = 0, other = 0;
+    std::size_t tinted = 0;
+    double off = 0.0;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         tinted += shown[i].g < 0.9f ? 1 : 0;
         for (int channel = 0; channel < 3; ++channel) {
             const float apart = std::abs(static_cast<float>(tints[4 * i + static_cast<std::size_t>(channel)]) - 255.0f * shown[i][channel]);
-            other += apart > 2.0f ? 1 : 0;
+            off += static_cast<double>(apart) / 3.0;
         }
     }
     EXPECT_GT(tinted, 1000u);
-    EXPECT_LE(other, kFewPixels);
+    // Fits of the two may differ, and with them how wide edges are: a mean, of 255ths.
+    std::printf("%s: %zu tinted, mean difference %.3f/255\n", kind_name(GetParam()), tinted, off / static_cast<double>(shown.size()));
+    EXPECT_LT(off / static_cast<double>(shown.size()), 1.0);
     for (const CasterId pane : {red, blue}) shadows->remove(pane);
     EXPECT_EQ(shadows->render(view).tint_texture, 0u);
 }

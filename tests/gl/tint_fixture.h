@@ -26,7 +26,7 @@ protected:
                 .alpha_mode = assets::AlphaMode::blend,
                 .double_sided = true};
     }
-    /// A horizontal square, `half_m` to each side. Unseen ones cast all the same.
+    /// Adds a horizontal square, `half_m` to each side. Unseen ones cast all the same.
     ecs::Entity add_pane(const assets::Material& material, const glm::dvec3& at_m, double half_m,
                          bool visible = false) {
         const std::uint32_t mesh =
@@ -76,7 +76,7 @@ protected:
         found.mean /= static_cast<double>(std::max<std::size_t>(found.pixels, 1));
         return found;
     }
-    glm::dquat turn{1.0, 0.0, 0.0, 0.0};  // of panes that are added
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};  // turn of panes that are added
 };
 
 }  // namespace gnomon

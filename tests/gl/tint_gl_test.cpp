@@ -17,7 +17,7 @@ constexpr glm::dvec3 kLamp_m{0.7, 9.0, 0.4};
 class Tints : public TintTest, public ::testing::WithParamInterface<LightKind> {
 protected:
     ecs::Entity add_lamp() { return add_light_of(GetParam(), kLamp_m, {.filter = ShadowFilter::hardware_2x2}); }
-    /// The first `count` of four panes, one above the other, that overlap in part.
+    /// Adds the first `count` of four panes, one above the other, that overlap in part.
     std::vector<ecs::Entity> add_panes(std::size_t count) {
         const glm::vec3 colours[] = {kRed, kGreen, kBlue, kAmber};
         std::vector<ecs::Entity> panes;
@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, RayTints,
                          ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                          [](const auto& test) { return kind_name(test.param); });
 
-/// Share of pixels that may be off by more than 1/255: those whose ray meets an edge to within a float.
+/// Share of pixels that may be off by more than 1/255: their rays meet an edge to within a float.
 constexpr double kOnEdges = 2.0e-4;
 
 TEST_P(RayTints, AreThoseOfTheTracer) {

@@ -153,7 +153,6 @@ TEST_P(DeviceFailure, TheLargestMapAloneFailingGivesASmallerOne) {
     EXPECT_EQ(report().counts.texels % (kSize_px * kSize_px), 0u) << "of the wished size again";
 }
 
-/// What translucent casters need may fail by itself: the light keeps its shadow, and they cast nothing.
 TEST_P(DeviceFailure, NoLayersOfTranslucentCastersLeaveTheShadowAsItIs) {
     world.add_mesh(kBlendedBox, {0.5, 2.0, 0.0}, true);
     EXPECT_CALL(device, create_texture).Times(::testing::AnyNumber());

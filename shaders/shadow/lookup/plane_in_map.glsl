@@ -1,4 +1,6 @@
-// How a receiver's plane lies over the texels of a map.
+// Slope of a receiver's plane over the texels of a map.
+
+// Returns a row of a matrix, without its last number.
 vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
 // Changes of u, v and depth around a place of a map, along the world's axes and times w there. A plane stays one under

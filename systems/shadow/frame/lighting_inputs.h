@@ -79,8 +79,7 @@ struct LightingLight {
     gl::BufferHandle ends{};               // occluder pyramid; {0} unless the source has a size
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
-    TintTextures tint;              // {0} unless row.tint is TintLookup::layers
-    gl::BufferHandle tint_tree{};   // {0} unless row.tint is TintLookup::rays
+    TintTextures tint;              // {0} without row.tint
     FallbackLookup plain;
     gl::Rect reach{};             // pixels within the light's range; empty: none
     gl::Rect screen{};            // the same; empty also where none of the scene's instances is seen within it

@@ -8,11 +8,12 @@ namespace gnomon::shadow {
 /// Layers of translucent casters that a view has: its nearest surfaces one by one, the rest in the last.
 inline constexpr std::uint32_t kTintLayers = 4;
 
-/// Textures of a light's layers of translucent casters, as shaders read them (shaders/shadow/lookup/tint/layers.glsl).
-/// {0}: it has none.
+/// What shaders read of a light's translucent casters (shaders/shadow/lookup/tint): textures of their layers, or their
+/// tree. {0}: it has none.
 struct TintTextures {
     gl::TextureHandle depths{};       // per layer of its map: depths of kTintLayers layers
     gl::TextureHandle absorbances{};  // per layer of its map kTintLayers in a row
+    gl::BufferHandle tree{};          // in place of both, for rays: translucent triangles (visibility/tint_scene.h)
 };
 
 /// Layers of one view in this frame. No textures: nothing translucent casts in its light's maps, or there is no room.

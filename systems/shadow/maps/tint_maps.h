@@ -15,7 +15,7 @@ namespace gnomon::shadow {
 /// Most texels of one layer over all views of a light: 96 MiB of depths and absorbances. A finer map has its layers at
 /// half its edge, or a quarter, since a tint has few edges.
 inline constexpr std::uint64_t kMostTintTexels = std::uint64_t{1} << 21;
-/// Bytes per texel: four depths, and four absorbances of three channels and one that is not used.
+/// Bytes per texel: four depths, and four absorbances of three channels, and a spare channel each.
 inline constexpr std::uint64_t kTintTexelBytes = 16 + std::uint64_t{kTintLayers} * 8;
 
 /// Returns the edge of the layers beside a map of that edge and number of views: the map's, halved until they fit.
@@ -51,7 +51,7 @@ public:
     /// Returns the bytes of all layers, or of one light's.
     std::uint64_t bytes() const;
     std::uint64_t bytes(ecs::Entity light) const;
-    /// Returns the bytes that all lights need, with those that found no room.
+    /// Returns the bytes that all lights need, also those without room.
     std::uint64_t wanted_bytes() const { return wanted_bytes_; }
 
     static constexpr std::uint64_t kHoldFrames = 60;  // as MapCache: looking away and back costs nothing

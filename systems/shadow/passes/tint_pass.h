@@ -19,8 +19,8 @@ struct TransmissionRecord {
     glm::vec4 through{0.0f};  // rgb: Material::transmission; w: 1: alpha is the covered share
 };
 
-/// Recorder of the layers of translucent casters: per view a pass per layer that finds its depths, one that gathers
-/// them, and one that sums absorbances. Nothing exists on the device until a view has such casters.
+/// Recorder of the layers of translucent casters. A view has a pass per layer that finds its depths, a pass that gathers
+/// them, and a pass that sums absorbances. Nothing exists on the device until a view has such casters.
 class TintPass {
 public:
     explicit TintPass(gl::Device& device);
@@ -45,11 +45,11 @@ private:
         std::uint32_t material = 0;
         std::uint32_t first_index = 0, index_count = 0, first_item = 0, item_count = 0;
         std::int32_t base_vertex = 0;
-        std::uint32_t record_offset = 0;  // of its TransmissionRecord
+        std::uint32_t record_offset = 0;  // place of its TransmissionRecord
     };
     struct View {
         std::size_t v = 0;
-        std::uint32_t record_offset = 0;       // of its DepthViewRecord
+        std::uint32_t record_offset = 0;        // place of its DepthViewRecord
         std::size_t first_draw = 0, draws = 0;  // into draws_
     };
     struct DrawItem {

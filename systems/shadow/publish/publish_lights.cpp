@@ -225,7 +225,7 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!in.ray_tints.empty() && in.ray_tints[i] && !in.drawn.statuses[i].has_lost_tint()) {
             out.row.tint = out.plain.row.tint = TintLookup::rays;
-            out.tint_tree = in.tint_tree;
+            out.tint = {{}, {}, in.tint_tree};
         }
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
         // also without a map

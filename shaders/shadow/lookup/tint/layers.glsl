@@ -1,5 +1,5 @@
-// Tint of a light by the layers of its translucent casters (systems/shadow/maps/tint_maps.h): the share of the light
-// that passes through all of them between it and a place, per channel.
+// Tint of a light by the layers of its translucent casters (systems/shadow/maps/tint_maps.h). It is the share of the
+// light that passes through all of them between it and a place, per channel.
 #include "common/bindings.glsl"
 #include "common/float_rounding.glsl"
 #include "shadow/lookup/row_flags.glsl"
@@ -32,7 +32,7 @@ TintPlace place_in_tint(int view, vec3 position_ca) {
     return place;
 }
 
-// Returns the place in the map that serves it. Of a sun's maps that is the first one that holds it; of a lamp's the one
+// Returns the place in the map that serves it. It is the first of a sun's maps with the place in it, or the map of a lamp
 // that looks most nearly toward it.
 TintPlace tint_place(vec3 position_ca) {
     const float kSeam = -1.0e-4;   // a direction between two faces of a cube may round to neither
@@ -69,8 +69,8 @@ vec3 shadow_tint(vec3 position_ca, vec3 normal, float error_m) {
     float size_texel = float(textureSize(tint_depths, 0).x);
     vec3 over_u = step_over_u(around, normal, facing, 1.0 / size_texel), over_v = step_over_v(around, normal, facing, 1.0 / size_texel);
     vec2 slope = vec2(dot(over_u, around.along_depth), dot(over_v, around.along_depth));
-    // How far the plane may lie nearer to the light: by the place's own error, by the normal's over one texel, and by
-    // snapped corners (docs/explanation/bias.md).
+    // How far the plane may lie nearer to the light (docs/explanation/bias.md): by the place's own error, the normal's
+    // over one texel, and snapped corners.
     float w = place.projected.w;
     float off_m = error_m + view.numeric.y + kPositionRounding * (abs(place.position_va.x) + abs(place.position_va.y) + abs(place.position_va.z)) +
                   kNormalError_rad * w * (length(over_u) + length(over_v));

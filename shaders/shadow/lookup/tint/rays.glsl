@@ -21,8 +21,8 @@ float tint_side(vec3 along, vec3 p, vec3 q) {
     return side;
 }
 
-// Returns whether a side that the ray meets exactly belongs to a triangle that turns that way about it. Of two triangles
-// with a common edge one owns it, so that the ray counts one of them.
+// Returns whether a side that the ray meets exactly belongs to a triangle that turns that way about it. One
+// of two triangles with a common edge owns it, so that the ray counts one of them.
 bool owns_side(vec3 p, vec3 q, bool turns) {
     bool rises = p.x != q.x ? p.x < q.x : (p.y != q.y ? p.y < q.y : p.z < q.z);
     return rises == turns;
@@ -73,7 +73,7 @@ mat2x3 axes_across(vec3 z) {
     return mat2x3(vec3(1.0 + side * z.x * z.x * a, side * b, -side * z.x), vec3(b, side + z.y * z.y * a, -z.y));
 }
 
-// Returns the mean over the places of a source with a size: a disk that faces the receiver, in a spiral of equal areas
+// Returns the mean over places of a source with a size: a disk that faces the receiver, in a spiral of equal areas
 // (Vogel 1979).
 vec3 passed_from_source(TintHead head, vec3 from, vec3 along, float rounded_m, float off_m) {
     const int kPlaces = 32;

@@ -1,5 +1,5 @@
-// Share of light that passes through a translucent surface, per channel: all of it where the surface covers nothing,
-// else what its material transmits, tinted by its colour.
+// Share of light that passes through a translucent surface, per channel. It is all of it where the surface covers
+// nothing, else what its material transmits, tinted by its colour.
 // C++ twin: TransmissionRecord in systems/shadow/passes/tint_pass.h.
 #include "common/material.glsl"
 layout(std140, binding = kTransmissionBlock) uniform TransmissionBlock {
