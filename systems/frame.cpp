@@ -77,6 +77,12 @@ bool Frame::read_visibility(ecs::Entity light, std::vector<float>& values) {
     return state_->system->read_visibility(static_cast<std::uint32_t>(index), values);
 }
 
+bool Frame::read_tint(ecs::Entity light, std::vector<glm::vec4>& values) {
+    const std::size_t index = state_->index_of(light);
+    if (index >= state_->system->snapshot().lights.size()) return false;
+    return state_->system->read_tint(static_cast<std::uint32_t>(index), values);
+}
+
 float Frame::visibility(ecs::Entity light, const glm::dvec3& position_m, double radius_m) {
     const SceneSnapshot& scene = state_->system->snapshot();
     const std::size_t index = state_->index_of(light);

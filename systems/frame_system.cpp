@@ -186,4 +186,13 @@ bool FrameSystem::read_visibility(std::uint32_t light, std::vector<float>& value
     return device_.read_texture(lighting_->visibility_texture(), 0, std::as_writable_bytes(std::span(values)));
 }
 
+bool FrameSystem::read_tint(std::uint32_t light, std::vector<glm::vec4>& values) {
+    if (!has_picture_) return false;
+    gl::CommandList list;
+    if (!lighting_->record_tint(shadows_->frame().inputs.front(), light, list)) return false;
+    if (device_.submit(list).failure != gl::Failure::none) return false;
+    values.resize(std::size_t{lighting_->size_px().x} * lighting_->size_px().y);
+    return device_.read_texture(lighting_->tint_texture(), 0, std::as_writable_bytes(std::span(values)));
+}
+
 }  // namespace gnomon

@@ -78,6 +78,9 @@ public:
     /// bottom row first. 1: lit. 0: shadowed, facing away or out of range. -1: no surface. Returns false if there is
     /// none.
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
+    /// Reads the colour that translucent casters let through of light `light` to each pixel's surface, in the same
+    /// order. 1: all, also where there is no surface. Returns false if there is none.
+    bool read_tint(std::uint32_t light, std::vector<glm::vec4>& values);
 
 private:
     FrameSystem(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history,

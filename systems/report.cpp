@@ -70,6 +70,8 @@ const char* reason_code(Reason reason) {
             return "buffer_failed";
         case Reason::sampler_failed:
             return "sampler_failed";
+        case Reason::tint_failed:
+            return "tint_failed";
         case Reason::fit_degenerate:
             return "fit_degenerate";
         case Reason::projection_unsupported:
@@ -172,6 +174,8 @@ const char* reason_text(Reason reason) {
                    "it was cut.";
         case Reason::depth_coarse:
             return "The depth format's steps are wider than the map's texels: d32f is finer.";
+        case Reason::tint_failed:
+            return "The device cannot hold or draw what translucent casters let through: they cast nothing.";
         case Reason::count:
             break;
     }

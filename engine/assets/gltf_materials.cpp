@@ -177,6 +177,38 @@ glm::vec3 emissive_of(Document& document, const tinygltf::Material& source, cons
     return emissive;
 }
 
+/// Returns a number of an extension, or its default.
+double member_of(const json& extension, const char* name, double otherwise) {
+    return extension.is_object() && extension.contains(name) ? extension.at(name).get<double>() : otherwise;
+}
+
+/// Returns the share of light that passes a surface (KHR_materials_transmission), after half of the body's thickness
+/// (KHR_materials_volume). A body with a volume is closed, so that light crosses two of its surfaces. Textures of both
+/// extensions are left out, with a warning.
+glm::vec3 transmission_of(Document& document, const json& raw, const std::string& where) {
+    const nlohmann::json::json_pointer transmission_path("/extensions/KHR_materials_transmission");
+    const nlohmann::json::json_pointer volume_path("/extensions/KHR_materials_volume");
+    if (!raw.contains(transmission_path)) return glm::vec3(0.0f);
+    const json& transmission = raw.at(transmission_path);
+    const json volume = raw.contains(volume_path) ? raw.at(volume_path) : json::object();
+    if (transmission.contains("transmissionTexture") || volume.contains("thicknessTexture"))
+        document.warn(where + ": textures of transmission and thickness are left out of its shadow");
+    const std::string in = where + "/extensions/KHR_materials_";
+    const float factor = unit_float(document, member_of(transmission, "transmissionFactor", 0.0),
+                                    in + "transmission/transmissionFactor");
+    const double thickness_m =
+        not_negative(document, member_of(volume, "thicknessFactor", 0.0), in + "volume/thicknessFactor");
+    const double distance_m = member_of(volume, "attenuationDistance", std::numeric_limits<double>::infinity());
+    glm::vec3 passed(factor);
+    if (!(thickness_m > 0.0) || !(distance_m > 0.0) || !volume.contains("attenuationColor")) return passed;
+    for (int i = 0; i < 3; ++i) {
+        const float colour = unit_float(document, volume.at("attenuationColor").at(static_cast<std::size_t>(i)).get<double>(),
+                                        in + "volume/attenuationColor");
+        passed[i] *= static_cast<float>(std::pow(static_cast<double>(colour), 0.5 * thickness_m / distance_m));
+    }
+    return passed;
+}
+
 Material load_material(Document& document, std::size_t index, TextureLoader& textures, UvSource& uv) {
     const tinygltf::Material& source = document.model.materials[index];
     const json& raw = document.json["materials"][index];
@@ -196,6 +228,7 @@ Material load_material(Document& document, std::size_t index, TextureLoader& tex
             unit_float(document, pbr.baseColorFactor[static_cast<std::size_t>(i)], pbr_where + "/baseColorFactor");
     }
     material.emissive = emissive_of(document, source, raw, where);
+    material.transmission = transmission_of(document, raw, where);
     material.unlit = raw.contains(nlohmann::json::json_pointer("/extensions/KHR_materials_unlit"));
     if (pbr.baseColorTexture.index < 0) return material;
 
@@ -240,7 +273,7 @@ void warn_of_blended_casters(Document& document, const SceneData& scene) {
         if (!name.empty()) names += " '" + printable(name) + "'";
     }
     if (blended.size() > kNamed) names += " and " + std::to_string(blended.size() - kNamed) + " more";
-    document.take("material.blend", names, "what is blended casts no shadow");
+    document.take("material.blend", names, "what is blended darkens by its alpha, the rest of the light passes");
 }
 
 }  // namespace gnomon::assets::gltf

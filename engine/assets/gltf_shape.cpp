@@ -102,6 +102,12 @@ constexpr Row kRows[] = {
     {"/materials/*/extensions/KHR_materials_emissive_strength", Kind::object},
     {"/materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
     {"/materials/*/extensions/KHR_materials_unlit", Kind::object},
+    {"/materials/*/extensions/KHR_materials_transmission", Kind::object},
+    {"/materials/*/extensions/KHR_materials_transmission/transmissionFactor", Kind::number},
+    {"/materials/*/extensions/KHR_materials_volume", Kind::object},
+    {"/materials/*/extensions/KHR_materials_volume/thicknessFactor", Kind::number},
+    {"/materials/*/extensions/KHR_materials_volume/attenuationDistance", Kind::number},
+    {"/materials/*/extensions/KHR_materials_volume/attenuationColor", Kind::numbers, kOptional, 3},
 
     {"/meshes", Kind::list, kOptional, kMaxItems},
     {"/meshes/*", Kind::object},

@@ -23,11 +23,12 @@ std::vector<Box> boxes_of(std::span<const BvhTriangle> triangles) {
 }  // namespace
 
 MeshBvh::MeshBvh(const assets::Mesh& mesh, std::span<const assets::Vertex> vertices,
-                 const std::vector<assets::Material>& materials) {
+                 const std::vector<assets::Material>& materials, MeshPart which) {
     triangles_.reserve(mesh.indices.size() / 3);
     for (const assets::Submesh& part : mesh.submeshes) {
         const assets::AlphaMode mode = materials[part.material].alpha_mode;
-        if (mode == assets::AlphaMode::blend) continue;
+        const bool is_seen_through = mode == assets::AlphaMode::blend;
+        if (which == MeshPart::shown ? is_seen_through : assets::transmits(materials[part.material])) continue;
         BvhTriangle triangle;
         if (mode == assets::AlphaMode::mask) triangle.mask = part.material;
         for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {

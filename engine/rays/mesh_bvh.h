@@ -23,15 +23,18 @@ struct BvhTriangle {
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
-/// Tree over the triangles of a mesh that block light, in mesh space. Excludes blended triangles, and those of a rigid
-/// mesh with a corner that is not finite. A deformed mesh's triangles follow its vertices, rounded to float once, as on
+/// Triangles of a mesh that a tree has. blocking: those of opaque and masked casters, which let no light through. shown:
+/// those of surfaces that pictures show as opaque: all but blended ones.
+enum class MeshPart : std::uint8_t { blocking, shown };
+
+/// Tree over triangles of a mesh, in mesh space. Excludes those of a rigid mesh with a corner that is not finite. A deformed mesh's triangles follow its vertices, rounded to float once, as on
 /// the GPU.
 class MeshBvh {
 public:
     MeshBvh() = default;
     /// Builds the tree. `vertices`: current ones from assets::deform(), or the mesh's own.
     MeshBvh(const assets::Mesh& mesh, std::span<const assets::Vertex> vertices,
-            const std::vector<assets::Material>& materials);
+            const std::vector<assets::Material>& materials, MeshPart part = MeshPart::blocking);
 
     /// Moves the triangles to the new vertices and refits the boxes. Rebuilds the tree if walks cost kLooseGrowth times
     /// as much as when it was built.

@@ -70,7 +70,8 @@ struct Mesh {
     std::shared_ptr<const Deformer> deformer;
 };
 
-/// What alpha does. `mask`: a hole where it is below the cutoff. `blend`: transparent; it casts no shadow.
+/// What alpha does. `mask`: a hole where it is below the cutoff. `blend`: the share that the surface covers; the rest of
+/// the light passes through it.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// Surface, as glTF's metallic-roughness model.
@@ -85,7 +86,17 @@ struct Material {
     float alpha_cutoff = 0.5f;                 // AlphaMode::mask: alpha below it is a hole, 0 to 1
     bool double_sided = false;                 // both faces are drawn, and cast
     bool unlit = false;                        // shows base_colour independent of light and exposure; casts shadows
+    /// Share of light that passes through what the surface covers, per channel, 0 to 1, before base_colour tints it. 0:
+    /// none. The surface casts coloured light in place of a shadow. Set it for glass; metallic surfaces stay opaque.
+    glm::vec3 transmission{0.0f};
 };
+
+/// Returns true if light passes through parts of the surface: it is blended, or transmits. Such a surface is a
+/// translucent caster: it is in no depth map and in no tree of opaque casters.
+inline bool transmits(const Material& m) {
+    return m.alpha_mode == AlphaMode::blend ||
+           (m.metallic < 1.0f && (m.transmission.x > 0.0f || m.transmission.y > 0.0f || m.transmission.z > 0.0f));
+}
 
 /// What lies beyond the edge of a texture.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };

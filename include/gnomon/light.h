@@ -134,6 +134,10 @@ struct LightShadow {
     /// Layers of the casters and receivers that take part in this light's shadows, a bit each. Change it so that some
     /// things cast no shadow, or get none, under this light alone.
     ShadowLayers layers = kAllShadowLayers;
+    /// Translucent casters tint: what is seen through them is lit in the colour that they let through
+    /// (assets::transmits). false: they cast nothing. A light without any in its caster set pays nothing. Switch it
+    /// off where smoke, decals or glass need not darken; its layers take up to 96 MiB.
+    bool translucent_casters = true;
     bool operator==(const LightShadow&) const = default;
 };
 

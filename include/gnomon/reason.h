@@ -49,6 +49,7 @@ enum class Reason : std::uint8_t {
     depths_unread,     // the picture's depths were unavailable: splits use the receivers' bounds
     filter_cut,        // a setting of the filter is invalid, or beyond what its map allows
     depth_coarse,      // steps of the depth format are wider than the map's texels at receivers
+    tint_failed,       // the device cannot hold or draw what translucent casters let through: they cast nothing
     count
 };
 /// Returns the code's name, as reports and files spell it.

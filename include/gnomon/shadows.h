@@ -53,6 +53,9 @@ struct MeshDesc {
     bool two_sided = false;  // seen from inside too: never counts as solid. Open meshes cast from both sides either way
     AlphaMask mask = {};     // holes of leaves and fences; needs uvs
     std::span<const glm::vec2> uvs = {};  // one per position, for the mask; else empty
+    /// Share of light that passes through each of its surfaces, per channel, 0 to 1. 0: none. Above 0 the mesh is a
+    /// translucent caster: it casts coloured light in place of a shadow (Mask::tint_texture). A body is crossed twice.
+    glm::vec3 transmittance{0.0f};
 };
 
 /// Box in world space, metres, unless a field names another space.
@@ -179,6 +182,10 @@ struct Mask {
     /// no mask was wanted, there are no lights, or `failure` has the reason.
     unsigned texture = 0;
     std::uint32_t layers = 0;  // lights times samples
+    /// GL_TEXTURE_2D_ARRAY of RGBA8 with the same layers: the colour in which translucent casters let a light through,
+    /// by which to multiply what `texture` lets arrive. 1 where there is no surface. 0: no light has translucent
+    /// casters in its maps, so that all of it would be 1. Valid as long as `texture`.
+    unsigned tint_texture = 0;
     /// Samples of the depth texture, 1 without multisampling. A forward shader reads the layer of a sample that it
     /// covers: findLSB(gl_SampleMaskIn[0]).
     std::uint32_t samples = 1;

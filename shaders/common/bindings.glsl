@@ -14,6 +14,7 @@ const int kSampleBlock = 0;         // passes over the finished picture
 const int kDepthViewBlock = 0;    // passes that draw maps: they and the next two passes have no camera
 const int kPrefilterBlock = 0;
 const int kPyramidBlock = 0;
+const int kTransmissionBlock = 3;   // passes that draw translucent casters
 const int kFlatViewBlock = 0;     // debug views of maps
 
 // Storage buffers.
@@ -22,6 +23,7 @@ const int kDepthBinBuffer = 0;
 const int kLineBuffer = 0;
 const int kRayListBuffer = 1;
 const int kPyramidBuffer = 2;
+const int kTintBuffer = 3;
 const int kMaskBuffer = 7;
 
 // Texture units of surfaces as they are drawn.
@@ -48,12 +50,15 @@ const int kRayNodeUnit = 10;
 const int kRayTriangleUnit = 11;
 const int kRayTopUnit = 12;
 const int kRayInstanceUnit = 13;
+const int kTintDepthUnit = 7;        // layers of translucent casters: lights with rays, which need no map of them, use 7 and 8
+const int kTintUnit = 8;
 const int kVerdictUnit = 5;          // verdict per pixel, found before the light is added
 const int kAnswerUnit = 7;
 const int kKeptVisibilityUnit = 4;
 
 // Texture units of passes that draw maps.
 const int kNearestTriangleUnit = 0;
+const int kPeeledDepthUnit = 4;       // and the next three: depths of translucent layers
 const int kPrefilterSourceUnit = 0;
 const int kBoundsItemUnit = 12;
 const int kBoundsVertexUnit = 13;

@@ -20,17 +20,31 @@ Error mesh_error(const MeshDesc& desc, const char* what, const char* rule) {
 
 bool has_mask(const AlphaMask& mask) { return mask.size_px.x > 0 && mask.size_px.y > 0; }
 
-/// Appends the material of a cut-out mesh, with the mask as its texture's alpha. Returns its index.
-std::uint32_t add_mask(const MeshDesc& desc, assets::MeshLibrary& library) {
+/// Returns whether the mesh lets any light through. Comparing so that NaN lets none.
+bool is_translucent(const glm::vec3& transmittance) {
+    return transmittance.x > 0.0f || transmittance.y > 0.0f || transmittance.z > 0.0f;
+}
+
+/// Appends the mask as a texture's alpha. Returns its index.
+std::int32_t add_mask(const MeshDesc& desc, assets::MeshLibrary& library) {
     assets::Texture texture{std::string(desc.name), desc.mask.size_px.x, desc.mask.size_px.y, {}};
     texture.rgba.reserve(desc.mask.alpha.size() * 4);
     for (const std::uint8_t alpha : desc.mask.alpha) texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
+    return static_cast<std::int32_t>(library.add_texture(std::move(texture)));
+}
+
+/// Appends the material of a mesh that is cut out or translucent. Returns its index.
+std::uint32_t add_material(const MeshDesc& desc, assets::MeshLibrary& library) {
     assets::Material material;
     material.name = desc.name;
-    material.base_colour_texture = static_cast<std::int32_t>(library.add_texture(std::move(texture)));
-    material.alpha_mode = assets::AlphaMode::mask;
-    material.alpha_cutoff = desc.mask.cutoff;
+    material.metallic = 0.0f;
     material.double_sided = desc.two_sided;
+    material.transmission = desc.transmittance;
+    if (has_mask(desc.mask)) {
+        material.base_colour_texture = add_mask(desc, library);
+        material.alpha_mode = assets::AlphaMode::mask;
+        material.alpha_cutoff = desc.mask.cutoff;
+    }
     return library.add_material(std::move(material));
 }
 
@@ -66,7 +80,8 @@ Result<std::uint32_t> add_mesh(const MeshDesc& desc, assets::MeshLibrary& librar
         mesh.bounds_ms = math::extended(mesh.bounds_ms, glm::dvec3(desc.positions_m[i]));
     }
     mesh.indices.assign(desc.indices.begin(), desc.indices.end());
-    const std::uint32_t material = masked ? add_mask(desc, library) : desc.two_sided ? kTwoSided : kOneSided;
+    const bool own = masked || is_translucent(desc.transmittance);
+    const std::uint32_t material = own ? add_material(desc, library) : desc.two_sided ? kTwoSided : kOneSided;
     mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), material}};
     mesh.topology = assets::analyse_topology(mesh);
     mesh.shape = assets::shape_of(mesh);
@@ -93,7 +108,7 @@ void remove_mesh(std::uint32_t mesh, assets::MeshLibrary& library) {
     if (material == kOneSided || material == kTwoSided) return;
     const std::int32_t texture = library.materials[material].base_colour_texture;
     library.remove_material(material);
-    library.remove_texture(static_cast<std::uint32_t>(texture));
+    if (texture != assets::kNone) library.remove_texture(static_cast<std::uint32_t>(texture));
 }
 
 }  // namespace gnomon::embed

@@ -231,6 +231,7 @@ void Shadows::State::fill_masks(std::size_t count) {
         masks[i].failure = !view.failure.empty() ? view.failure : status.failure;
         if (!masks[i].failure.empty() || !view.wants_mask || view.layers.empty()) continue;
         masks[i].texture = gl::gl_name(*device, view.mask.texture());
+        masks[i].tint_texture = gl::gl_name(*device, view.mask.tint_texture());
         masks[i].layers = view.mask.layer_count();
         masks[i].samples = static_cast<std::uint32_t>(std::max<std::size_t>(view.picture.samples.size(), 1));
     }

@@ -63,6 +63,7 @@ public:
     const SubmeshRange& submesh(std::uint32_t index) const { return meshes_.submesh(index); }
     const MaterialInfo& material(std::uint32_t index) const { return materials_.material(index); }
     bool any_unlit() const { return materials_.any_unlit(); }           // any material is unlit
+    bool any_transmits() const { return materials_.any_transmits(); }   // any material is of a translucent caster
     float most_emissive() const { return materials_.most_emissive(); }  // maximum over lit materials and channels
     const assets::MeshLibrary& library() const { return meshes_.library(); }
     std::size_t mesh_count() const { return meshes_.count(); }

@@ -56,6 +56,7 @@ SceneMaterials& SceneMaterials::operator=(SceneMaterials&& other) noexcept {
     unconfirmed_ = std::move(other.unconfirmed_);
     lacks_ = other.lacks_;
     any_unlit_ = other.any_unlit_;
+    any_transmits_ = other.any_transmits_;
     most_emissive_ = other.most_emissive_;
     seen_ = other.seen_;
     retry_ = other.retry_;
@@ -163,6 +164,10 @@ gl::Failure SceneMaterials::make_info(std::size_t m) {
     info.alpha_mode = material.alpha_mode;
     info.double_sided = material.double_sided;
     info.unlit = material.unlit;
+    info.transmits = assets::transmits(material);
+    // Comparing so that NaN lets nothing through.
+    for (int i = 0; i < 3; ++i)
+        info.transmission[i] = material.transmission[i] > 0.0f ? std::min(material.transmission[i], 1.0f) : 0.0f;
     gl::Failure failure = gl::Failure::none;
     if (material.base_colour_texture == assets::kNone) {
         info.texture = white_;
@@ -179,10 +184,11 @@ gl::Failure SceneMaterials::make_info(std::size_t m) {
 
 /// Notes what follows from all materials together.
 void SceneMaterials::note_lights() {
-    any_unlit_ = false;
+    any_unlit_ = any_transmits_ = false;
     most_emissive_ = 0.0f;
     for (const assets::Material& material : library_->materials) {
         any_unlit_ |= material.unlit;
+        any_transmits_ |= assets::transmits(material);
         for (int i = 0; i < 3 && !material.unlit; ++i) most_emissive_ = std::max(most_emissive_, material.emissive[i]);
     }
 }

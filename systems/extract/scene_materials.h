@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -28,6 +29,8 @@ struct MaterialInfo {
     assets::AlphaMode alpha_mode = assets::AlphaMode::opaque;
     bool double_sided = false;
     bool unlit = false;
+    bool transmits = false;  // assets::transmits()
+    glm::vec3 transmission{0.0f};
 };
 
 /// Materials and textures of a library on the device. Owns the objects.
@@ -53,6 +56,7 @@ public:
     bool has(std::uint32_t material) const { return material < held_.size() && held_[material].held; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
     bool any_unlit() const { return any_unlit_; }
+    bool any_transmits() const { return any_transmits_; }
     float most_emissive() const { return most_emissive_; }
     gl::BufferHandle uniforms() const { return uniforms_.buffer(0); }
 
@@ -86,7 +90,7 @@ private:
     std::vector<Held> held_;  // by material
     std::vector<std::size_t> unwritten_, unconfirmed_;
     bool lacks_ = false;  // some material or texture is not on the device
-    bool any_unlit_ = false;
+    bool any_unlit_ = false, any_transmits_ = false;
     float most_emissive_ = 0.0f;
     std::uint64_t seen_ = 0;
     Retry retry_;

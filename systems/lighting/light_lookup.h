@@ -21,6 +21,7 @@ struct LightProgram {
     visibility::RayBuffers rays{};
     gl::TextureHandle second{}, bounds{};                  // for maps of sheets
     gl::BufferHandle ends{};                               // for area lights on such maps
+    shadow::TintTextures tint{};                           // for rows with a TintLookup
     gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` traces the rays itself
     gl::ProgramHandle decided_program{};  // draws all but slow pixels, which remain for `program`; {0}: none
     EdgePrograms edges{};                 // with these, the two draw middles, or `program` alone those of rays
@@ -35,6 +36,9 @@ LightProgram fallback_program(LightPrograms& programs, const shadow::LightingLig
 
 /// Binds the light's maps: depths, and what conservative maps have beside them.
 void bind_maps(const LightProgram& light, gl::CommandList& list);
+
+/// Binds a light's layers of translucent casters, or the tree of all; nothing without.
+void bind_tint(const shadow::TintTextures& tint, gl::CommandList& list);
 
 /// Binds what a row with triangles reads beside its map; nothing for other rows.
 void bind_triangles(const LightProgram& light, const GpuScene& gpu, gl::CommandList& list);

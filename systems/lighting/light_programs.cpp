@@ -39,6 +39,8 @@ const char* output_name(ShaderPass output) {
             return "crossed areas";
         case ShaderPass::found_middles:
             return "found middles";
+        case ShaderPass::tint:
+            return "tint";
     }
     return "light";
 }
@@ -56,6 +58,9 @@ bool adds_to_picture(ShaderPass output) {
     return output == ShaderPass::picture || output == ShaderPass::kept || output == ShaderPass::decided;
 }
 
+/// Returns true if the output shows light in its colour, and so reads what translucent casters let through.
+bool reads_tint(ShaderPass output) { return adds_to_picture(output) || is_forward(output) || output == ShaderPass::tint; }
+
 /// Returns the file under shaders/ that gives the share of a light that a surface sees.
 std::string_view visible_share_file(ShaderPass output, bool found_before) {
     if (output == ShaderPass::kept || output == ShaderPass::kept_visibility)
@@ -65,6 +70,7 @@ std::string_view visible_share_file(ShaderPass output, bool found_before) {
 
 /// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
 std::string_view fragment_file(ShaderPass output) {
+    if (output == ShaderPass::tint) return "lighting/lights/tint.frag";
     const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility ||
                           output == ShaderPass::decided_visibility || output == ShaderPass::crossed_areas ||
                           !middle_state(output, false).empty();
@@ -124,6 +130,7 @@ LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ShaderKey& wan
     if (row.rays && output != ShaderPass::crossed_areas) row.antialias = false;
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
     row.sheets = wanted.sheets;
+    row.tint = reads_tint(output) ? wanted.tint : shadow::TintLookup::none;
     const bool some_unlit = some_unlit_ && adds_to_picture(output);
     const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
         return e.output == output && e.fragment == fragment && e.some_unlit == some_unlit && e.row == row;
@@ -161,6 +168,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
                               (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") +
+                              (row.tint != shadow::TintLookup::none ? " tinted" : "") +
                               (found_before ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
     if (is_forward(output))
         make(entry, label, "lighting/gbuffer/gbuffer.vert", forward_file(output), defines, &row);

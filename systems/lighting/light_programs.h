@@ -22,6 +22,7 @@ namespace gnomon::lighting {
 /// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of
 /// the
 ///   others, and of the areas that an edge crosses
+/// - tint: colour that translucent casters let through
 /// - found_middles: for EdgePass, visibility at the middles of all pixels, by rays
 enum class ShaderPass : std::uint8_t {
     picture,
@@ -38,14 +39,19 @@ enum class ShaderPass : std::uint8_t {
     decided_middles,
     undecided_middles,
     crossed_areas,
-    found_middles
+    found_middles,
+    tint
 };
 
 /// Returns whether a row's program draws meshes, in place of passes over the picture.
 inline bool is_forward(ShaderPass output) { return output == ShaderPass::blended || output == ShaderPass::catcher; }
 
 /// Returns the row for a light without lookup: one per kind.
-inline shadow::ShaderKey kept_row(const shadow::ShaderKey& row) { return {row.kind_define, {}, {}}; }
+inline shadow::ShaderKey kept_row(const shadow::ShaderKey& row) {
+    shadow::ShaderKey kept{row.kind_define, {}, {}};
+    kept.tint = row.tint;
+    return kept;
+}
 
 /// Programs of the lighting system, made on first use; one per (row, output, debug view). Owns them. A program that
 /// failed is retried after Retry::kFrames; an essential one at every use, as no frame works without it. Finding an

@@ -336,6 +336,24 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
     return true;
 }
 
+bool LightingSystem::record_tint(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list) {
+    if (light >= inputs.lights.size() || !targets_.ensure_tint()) return false;
+    const shadow::LightingLight& item = inputs.lights[light];
+    const gl::ProgramHandle program = programs_.row(kept_row(item.row), ShaderPass::tint);
+    if (!program) return false;
+    list.add(gl::BeginGroup{"tint"});
+    list.add(gl::BeginPass{targets_.tint_target, viewport(), false, 0.0f, true, {1.0f, 1.0f, 1.0f, 1.0f}});
+    list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    bind_surface_textures(list);
+    list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
+                              sizeof(shadow::LightRecord)});
+    bind_tint(item.tint, list);
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    list.add(gl::EndGroup{});
+    return true;
+}
+
 bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list) {
     const shadow::LightingLight& item = lookups.inputs.lights[lookups.light];
     if (!item.map) return true;  // nothing to look up

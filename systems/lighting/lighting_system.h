@@ -73,6 +73,10 @@ public:
     bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
                            gl::CommandList& list);
 
+    /// Records into tint_texture() the colour that one light's translucent casters let through to each surface, as
+    /// record_visibility() does with its visibility. White: all. Returns false if impossible.
+    bool record_tint(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list);
+
     /// Picture of one light's map lookups, over the surfaces of the last record() of `inputs`.
     struct Lookups {
         const shadow::LightingInputs& inputs;
@@ -99,6 +103,7 @@ public:
     gl::TextureHandle picture_texture() const { return targets_.picture; }  // srgb8_a8
     gl::TargetHandle picture_target() const { return targets_.picture_target; }
     gl::TextureHandle visibility_texture() const { return targets_.visibility; }  // r32f
+    gl::TextureHandle tint_texture() const { return targets_.tint; }              // rgba32f; w is 1
     glm::uvec2 size_px() const { return targets_.size_px(); }
 
 private:

@@ -60,6 +60,16 @@ bool LightingTargets::ensure_visibility() {
     return false;
 }
 
+bool LightingTargets::ensure_tint() {
+    if (tint_target) return true;
+    if (!picture_target) return false;
+    if (make(tint, "tint", gl::Format::rgba32f, size_px_.x, size_px_.y) && make(tint_target, "tint", {tint}, {}))
+        return true;
+    device_.destroy(tint);
+    tint = {};
+    return false;
+}
+
 bool LightingTargets::provide_places(bool wanted) {
     if (wanted == static_cast<bool>(places_target)) return true;
     const bool made = wanted && make(places, "surface places", kPlaceFormat, size_px_.x, size_px_.y) &&
@@ -98,11 +108,11 @@ void LightingTargets::release() {
     release_places();
     release_undecided();
     for (gl::TargetHandle* t :
-         {&surface_target, &light_target, &luminance_target, &picture_target, &visibility_target}) {
+         {&surface_target, &light_target, &luminance_target, &picture_target, &visibility_target, &tint_target}) {
         device_.destroy(*t);
         *t = {};
     }
-    for (gl::TextureHandle* t : {&depth, &colour, &normals, &material, &light_sum, &luminance, &picture, &visibility}) {
+    for (gl::TextureHandle* t : {&depth, &colour, &normals, &material, &light_sum, &luminance, &picture, &visibility, &tint}) {
         device_.destroy(*t);
         *t = {};
     }

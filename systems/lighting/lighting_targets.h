@@ -23,6 +23,8 @@ public:
     bool resize(glm::uvec2 size_px);
     /// Creates the visibility target on first use, because few pictures need it.
     bool ensure_visibility();
+    /// Creates the target of a light's tint on first use.
+    bool ensure_tint();
     /// Creates or frees the target for exact surface positions. Returns false without room.
     bool provide_places(bool wanted);
     /// Creates or frees a second depth of the surfaces with the light's sum, for pixels that a light's first draw
@@ -33,8 +35,9 @@ public:
     gl::Failure failure() const { return failure_; }  // last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},
-        places{}, undecided{};
+        tint{}, places{}, undecided{};
     gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{},
+        tint_target{},
         places_target{},     // the surfaces including places
         undecided_target{};  // light_sum, with `undecided`
 

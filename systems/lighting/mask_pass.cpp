@@ -297,6 +297,7 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
     GNOMON_ZONE("mask");
     outcome.failure = prepare(in.picture, in.layers.size(), in.inputs.lights.size());
     if (outcome.failure != gl::Failure::none) return false;
+    provide_tints(in);
     if (in.layers.empty()) {
         release_layers();
         edges_.provide(false, size_px_);
@@ -315,6 +316,7 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
     for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {
         import(in.picture, sample, list);
         record_layers(in, sample, list);
+        if (tints_) record_tints(in, sample, list);
     }
     list.add(gl::EndGroup{});
     for (const std::uint32_t layer : in.layers) {
@@ -336,6 +338,7 @@ void MaskPass::release_undecided() {
 
 void MaskPass::release_layers() {
     release_undecided();
+    release_tints();
     for (const gl::TargetHandle target : targets_) device_.destroy(target);
     targets_.clear();
     device_.destroy(mask_);

@@ -61,6 +61,9 @@ public:
 
     /// Returns the mask, r8; {0} before the first record(). Another texture after a change of size or number of layers.
     gl::TextureHandle texture() const { return mask_; }
+    /// Returns the colours that translucent casters let through, rgba8, with the same layers. {0}: no light of the last
+    /// record() has such casters, or the device has no room for them.
+    gl::TextureHandle tint_texture() const { return tints_; }
     std::uint32_t layer_count() const { return static_cast<std::uint32_t>(targets_.size()); }
 
 private:
@@ -80,6 +83,9 @@ private:
                      gl::CommandList& list) const;
     void bind_shares(gl::CommandList& list) const;
     void record_layers(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list);
+    void provide_tints(const MaskInputs& in);
+    void record_tints(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list);
+    void release_tints();
     void release_undecided();
     void release_layers();
     void release();
@@ -93,6 +99,8 @@ private:
     std::vector<gl::TargetHandle> targets_;            // one per layer of the mask, with depth_
     gl::TextureHandle undecided_{};                    // depth of the pixels that a light's first draw has left
     std::vector<gl::TargetHandle> undecided_targets_;  // one per layer, with undecided_; none: each light is one draw
+    gl::TextureHandle tints_{};
+    std::vector<gl::TargetHandle> tint_targets_;  // one per layer of the mask
     glm::uvec2 size_px_{0, 0};
     gl::SamplerHandle sampler_{};
     std::uint32_t import_offset_ = 0, sample_stride_ = 0, lights_offset_ = 0, light_stride_ = 0, kept_offset_ = 0;

@@ -92,6 +92,7 @@ void LightingSystem::record_kept(const LightPass& pass, std::uint32_t index, con
         gl::SetPipeline{{pass.reads, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
     bind_surface_textures(list);
     bind_kept(pass, index, list);
+    bind_tint(light.tint, list);
     list.add(gl::DrawTriangle{light.farthest_depth});
     list.add(gl::EndPass{});
 }

@@ -45,7 +45,8 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
         };
         const auto made = [&](ShaderPass part) { return made_of(light.row, part); };
         LightProgram used{{},         light.map,    light.triangles, light.sampler,
-                          light.rays, light.second, light.bounds,    light.ends};
+                          light.rays, light.second, light.bounds,    light.ends,
+                          light.tint};
         // Makes the programs of a list of rays, where the light has one.
         const auto finds_rays = [&] {
             if (!lists) return true;

@@ -26,7 +26,10 @@ ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history)
       bounds_pass_(device),
       pyramid_pass_(device),
       prefilter_pass_(device),
+      tint_maps_(device),
+      tint_pass_(device),
       rays_(device),
+      tint_scene_(device),
       history_(fit_history) {}
 
 ShadowSystem::~ShadowSystem() {
@@ -128,8 +131,9 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     if (others_move) frame_.moving = dynamic_casters_.moving();
     BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
+    if (limits.bytes != MapCache::kNoLimit) limits.bytes -= std::min(limits.bytes, tint_maps_.wanted_bytes());
     const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
-    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay();
+    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay() && tint_maps_.stay();
     if (reused_) {
         keep_all(frame_.maps, frame_.updates);
     } else {
@@ -140,6 +144,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     }
     report.still = reused_;
     report.rays = rays_.report();
+    report.rays.bytes += tint_scene_.bytes();
     report.rays.sheet_bytes = bounds_pass_.bytes();
     report.rays.sheet_host_bytes = bounds_pass_.host_bytes();
     if (reused_) report.rays.meshes_written = 0, report.rays.instances_written = false;
@@ -150,7 +155,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
 void ShadowSystem::report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const {
     const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
     explain_lights(
-        scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, contribution_culling_, has_rays, frame_.cpu_us},
+        scene, {drawn_views(frame_), frame_.sets, maps_, tint_maps_, draw_times_, contribution_culling_, has_rays, frame_.cpu_us},
         report);
     budget_.report(report);
     add_outcome(outcome, report);
@@ -204,24 +209,44 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     plan_updates(scene, gpu, {f.fitted, f.decisions, f.maps, budget_.draw_allowance()}, maps_, due_, f.updates);
     const DrawnViews views = drawn_views(f);
     finish("update");
+    provide_tints(scene, gpu, limits_of(settings.budget).bytes, out.list);
 
     const PassInputs passes{scene, gpu, views};
     depth_pass_.prepare(passes, accounts);
     prefilter_pass_.prepare(passes, accounts);
+    tint_pass_.prepare(passes, f.tints, f.statuses);
     bounds_pass_.prepare(passes, accounts);
     pyramid_pass_.prepare(passes, accounts);
     measure_clearances(passes, f.clearances_m, f.cpu_us);
 
     depth_pass_.record(passes, out);
     prefilter_pass_.record(passes, out);
+    tint_pass_.record(passes, f.tints, out);
     bounds_pass_.record(passes, out);
     pyramid_pass_.record(passes, out);
     finish("passes");
 
     const bool masked = static_cast<bool>(gpu.caster_masks());
-    publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked}, f.inputs,
+    publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked, f.tints, f.ray_tints,
+                    tint_scene_.buffer()},
+                   f.inputs,
                    f.cpu_us);
     finish("publish");
+}
+
+/// Gives views with translucent casters their layers, within what `limit`, bytes, leaves beside
+/// the maps.
+void ShadowSystem::provide_tints(const SceneSnapshot& scene, const GpuScene& gpu, std::uint64_t limit,
+                                 gl::CommandList& list) {
+    const std::uint64_t taken = maps_.bytes() + tint_maps_.bytes();
+    const std::uint64_t room = limit == MapCache::kNoLimit ? limit : limit - std::min(limit, taken);
+    tint_maps_.assign(scene, gpu, drawn_views(frame_), room, frame_.statuses, frame_.tints);
+    if (tint_maps_.bytes() == 0) tint_pass_.release();
+    list_ray_tints(scene, gpu, drawn_views(frame_), frame_.sets, frame_.ray_tints);
+    if (frame_.ray_tints.empty()) return tint_scene_.release();
+    if (tint_scene_.update(scene, gpu, list)) return;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (frame_.ray_tints[i]) frame_.statuses[i].lose_tint(Reason::tint_failed);
 }
 
 void ShadowSystem::finish(std::string_view stage) const {
@@ -243,7 +268,8 @@ bool ShadowSystem::has_buffers(const GpuScene& gpu) const {
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     const auto is_tried_again = [](Reason reason) {
         return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||
-               reason == Reason::sampler_failed || reason == Reason::filter_program_failed;
+               reason == Reason::sampler_failed || reason == Reason::filter_program_failed ||
+               reason == Reason::tint_failed;
     };
     if (!(history_ == frame_.next_history)) return false;
     for (std::size_t i = 0; i < frame_.statuses.size(); ++i) {
@@ -259,7 +285,9 @@ void ShadowSystem::commit(const SceneSnapshot& scene, bool executed) {
     const bool takes_turns = budget_.limits().ns != BudgetLimits::kNone;
     if (!reused_) budget_.note_changes(scene, drawn_views(frame_), frame_.next_history);
     commit_maps(scene, drawn_views(frame_), {executed, takes_turns}, maps_);
+    if (!reused_) tint_maps_.commit(scene, drawn_views(frame_), frame_.tints, executed);
     rays_.submitted(executed);
+    tint_scene_.submitted(executed);
     may_reuse_ = executed && (reused_ || is_settled(scene));
     std::swap(history_, frame_.next_history);
 }

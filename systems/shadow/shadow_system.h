@@ -23,14 +23,17 @@
 #include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/frame/shadow_settings.h"
 #include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/maps/tint_maps.h"
 #include "systems/shadow/passes/depth_pass.h"
 #include "systems/shadow/passes/prefilter_pass.h"
+#include "systems/shadow/passes/tint_pass.h"
 #include "systems/shadow/publish/publish_lights.h"
 #include "systems/shadow/report/draw_times.h"
 #include "systems/shadow/request/ray_limit.h"
 #include "systems/shadow/update/frame_reuse.h"
 #include "systems/shadow/update/update_scheduler.h"
 #include "systems/visibility/ray_scene.h"
+#include "systems/visibility/tint_scene.h"
 
 namespace gnomon::shadow {
 
@@ -95,6 +98,7 @@ private:
     bool has_buffers(const GpuScene& gpu) const;
     bool samplers_ready(std::span<const ShadowRequest> requests);
     bool moment_sampler_ready(const PrefilterSettings& settings);
+    void provide_tints(const SceneSnapshot& scene, const GpuScene& gpu, std::uint64_t limit, gl::CommandList& list);
     bool update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
     void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list);
 
@@ -104,7 +108,10 @@ private:
     BoundsPass bounds_pass_;
     OccluderPyramidPass pyramid_pass_;
     PrefilterPass prefilter_pass_;
+    TintMaps tint_maps_;
+    TintPass tint_pass_;
     visibility::RayScene rays_;
+    visibility::TintScene tint_scene_;
     MapSamplers samplers_;
     DrawTimes draw_times_;
     ContributionCulling contribution_culling_;

@@ -45,8 +45,14 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
 
     visibility::CasterTrees trees(library, visibility::TreesOf::casters_and_visible);
     trees.update(scene);
+    // Glass that is drawn as opaque is seen, but blocks no light.
+    const bool sees_glass = std::any_of(library.materials.begin(), library.materials.end(), [](const auto& material) {
+        return assets::transmits(material) && material.alpha_mode != assets::AlphaMode::blend;
+    });
+    visibility::CasterTrees shown(library, visibility::TreesOf::visible);
+    if (sees_glass) shown.update(scene);
     truth.seen.reset(camera.viewport_px, camera.position_ws_m);
-    const SurfaceTracer surfaces(scene, trees, camera);
+    const SurfaceTracer surfaces(scene, sees_glass ? shown : trees, camera);
     share_rows(height, threads, kSeeing, state, [&] {
         return [&, hint = kNoSurface](std::uint32_t row, std::uint32_t rows) mutable {
             for (std::uint32_t i = 0; i < rows; ++i) surfaces.trace_row(row + i, hint, truth.seen);

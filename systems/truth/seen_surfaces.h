@@ -30,7 +30,7 @@ struct SeenSurfaces {
 class SurfaceTracer {
 public:
     /// Refers to its arguments, which must outlive the tracer. `trees`: of this scene, with
-    /// TreesOf::casters_and_visible.
+    /// TreesOf::casters_and_visible, or TreesOf::visible where any surface transmits light without being blended.
     SurfaceTracer(const SceneSnapshot& scene, const visibility::CasterTrees& trees, const ConsumerItem& camera)
         : scene_(scene), trees_(trees), camera_(camera) {}
 

@@ -18,6 +18,10 @@ if(GNOMON_SAMPLE)
     budget_gl_test.cpp
     ../economy/both_ways.cpp
     LIBRARIES gnomon_bench_parts)
+  # Translucent casters, by maps and by rays.
+  gnomon_tests(NAME gl_tint LABEL gl SOURCES
+    tint_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_oracle)
   # Meshes that come and go.
   gnomon_tests(NAME gl_streaming LABEL gl SOURCES
     streaming_gl_test.cpp

@@ -8,6 +8,7 @@ if(GNOMON_SAMPLE)
     embed_layers_gl_test.cpp
     embed_lookup_gl_test.cpp
     embed_state_gl_test.cpp
+    embed_tint_gl_test.cpp
     embed_views_gl_test.cpp
     failing_gl.cpp
     gl_state_record.cpp

@@ -62,7 +62,8 @@ inline constexpr double kJitter = 1.0e-6;     // about 6 times the error of a po
 class ReferenceTracer {
 public:
     /// Stores all positions relative to `origin_ws_m`: choose it near the camera. Instances that name unknown meshes,
-    /// triangles that are degenerate or not finite, and blended materials do not exist for the tracer.
+    /// triangles that are degenerate or not finite, and blended materials do not exist for the tracer. Surfaces that
+    /// transmit light are seen, and block none (tint_truth.h has what they let through).
     /// `library` must outlive the tracer. threads 0: one per core.
     ReferenceTracer(const SceneSnapshot& snapshot, const assets::MeshLibrary& library, const glm::dvec3& origin_ws_m,
                     unsigned threads = 0);

@@ -121,7 +121,7 @@ void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index,
             t.mesh = item.mesh;
             t.material = submesh.material;
             t.visible = shows_surface(item);
-            t.cast_layers = item.casts ? item.cast_layers : ShadowLayers{0};
+            t.cast_layers = item.casts && !assets::transmits(material) ? item.cast_layers : ShadowLayers{0};
             t.receive_layers = item.receives ? item.receive_layers : ShadowLayers{0};
             t.mirrored = item.winding.mirrored;
             t.double_sided = material.double_sided || item.winding.folded;

@@ -109,11 +109,13 @@ TEST_F(DepthPasses, ACasterThatTheCameraDoesNotSeeStillCasts) {
 }
 
 TEST_F(DepthPasses, BlendedSurfacesLetLightThrough) {
-    const ecs::Entity glass = world.add_mesh(kBlendedBox, {1, 1, 0}, true);
-    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    const ecs::Entity glass = world.add_mesh(kBlendedBox, {1, 1, 0}, true), untinted = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    edit_light(world.registry, untinted, [](LightShadow& s) { s.translucent_casters = false; });
+    world.add_light(LightKind::spot, kLightPlace_m, "tinted");
     step();
     EXPECT_THAT(drawn_slots(depth_passes().at(0)), Not(Contains(slot_of(glass))));
     EXPECT_EQ(light("lamp").counts.triangles, 12u);
+    EXPECT_EQ(light("tinted").counts.triangles, 12u + 5u * 12u) << "four layers and their sums";
 }
 
 TEST_F(DepthPasses, AStillSceneRedrawsNothing) {

@@ -153,6 +153,35 @@ TEST_P(DeviceFailure, TheLargestMapAloneFailingGivesASmallerOne) {
     EXPECT_EQ(report().counts.texels % (kSize_px * kSize_px), 0u) << "of the wished size again";
 }
 
+TEST_P(DeviceFailure, NoLayersOfTranslucentCastersLeaveTheShadowAsItIs) {
+    world.add_mesh(kBlendedBox, {0.5, 2.0, 0.0}, true);
+    EXPECT_CALL(device, create_texture).Times(::testing::AnyNumber());
+    EXPECT_CALL(device, create_texture(Field(&gl::TextureDesc::label, HasSubstr("translucent")), _))
+        .WillRepeatedly(refusal<gl::TextureHandle>(gl::Failure::out_of_memory));
+    for (int i = 0; i < 3; ++i) {
+        step();
+        ASSERT_THAT(light_programs(), SizeIs(1));
+        EXPECT_THAT(light_programs()[0], HasSubstr("filters"));
+        EXPECT_THAT(light_programs()[0], ::testing::Not(HasSubstr("tinted")));
+        EXPECT_STREQ(reason_code(report().reason), "tint_failed");
+    }
+    end_fault();
+    EXPECT_THAT(light_programs()[0], HasSubstr("tinted"));
+}
+
+TEST_P(DeviceFailure, NoProgramForTranslucentCastersLeavesTheShadowAsItIs) {
+    world.add_mesh(kBlendedBox, {0.5, 2.0, 0.0}, true);
+    EXPECT_CALL(device, create_program).Times(::testing::AnyNumber());
+    EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, HasSubstr("translucent"))))
+        .WillRepeatedly(refusal<gl::ProgramHandle>(gl::Failure::compile_failed));
+    step();
+    ASSERT_THAT(light_programs(), SizeIs(1));
+    EXPECT_THAT(light_programs()[0], ::testing::Not(HasSubstr("tinted")));
+    EXPECT_STREQ(reason_code(report().reason), "tint_failed");
+    end_fault();
+    EXPECT_THAT(light_programs()[0], HasSubstr("tinted"));
+}
+
 TEST_P(DeviceFailure, AnIncompleteTargetLeavesTheLightLitAndNothingBehind) {
     EXPECT_CALL(device, create_target).Times(::testing::AnyNumber());
     EXPECT_CALL(device, create_target(is_map_target)).WillOnce(refusal<gl::TargetHandle>(gl::Failure::incomplete_target));

@@ -176,6 +176,10 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
         {Reason::filter_program_waits, changed([this] { settings.programs_per_frame = 0; })},
         {Reason::buffer_failed, refused(Kind::create_buffer, "shadow draw items", gl::Failure::out_of_memory)},
         {Reason::sampler_failed, refused(Kind::create_sampler, "shadow compare linear", gl::Failure::out_of_memory)},
+        {Reason::tint_failed, changed([this] {
+             world.add_mesh(kBlendedBox, {1, 1, 0}, true);
+             device.fail_label("translucent casters", gl::Failure::out_of_memory);
+         })},
         {Reason::projection_unsupported,
          tuned(LightKind::spot, {.projection = {.kind = LightProjection::orthographic}})},
         {Reason::eye_invalid, tuned(LightKind::directional, {.projection = {.eye_angle_rad = -1.0f}})},

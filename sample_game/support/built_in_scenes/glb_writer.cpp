@@ -130,6 +130,12 @@ std::uint32_t GlbBuilder::add_material(const MaterialSpec& spec) {
         material.alphaMode = "MASK";
         material.alphaCutoff = static_cast<double>(*spec.alpha_cutoff);
     }
+    if (spec.blended) {
+        material.alphaMode = "BLEND";
+        const double passed = static_cast<double>(spec.transmission);
+        material.extensions["KHR_materials_transmission"] =
+            tinygltf::Value(tinygltf::Value::Object{{"transmissionFactor", tinygltf::Value(passed)}});
+    }
     material.doubleSided = spec.double_sided;
     return add(model_->materials, material);
 }

@@ -4,6 +4,7 @@
 
 #include "gnomon/assets.h"
 #include "sample_game/support/built_in_scenes/courtyard/courtyard.h"
+#include "sample_game/support/built_in_scenes/panes.h"
 #include "sample_game/support/built_in_scenes/spheres.h"
 #include "sample_game/support/built_in_scenes/valley/valley.h"
 #include "sample_game/support/settings/parse_number.h"
@@ -13,6 +14,7 @@ namespace gnomon::game {
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file) {
     if (file == kValleyScene) return assets::load_gltf_memory(make_valley().glb, {}, "built-in valley");
     if (file == kSpheresScene) return assets::load_gltf_memory(make_spheres().glb, {}, "built-in spheres");
+    if (file == kPanesScene) return assets::load_gltf_memory(make_panes(), {}, "built-in panes");
     if (file) return assets::load_gltf(*file);
     return assets::load_gltf_memory(make_courtyard().glb, {}, "built-in courtyard");
 }

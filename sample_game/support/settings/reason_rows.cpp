@@ -43,6 +43,7 @@ constexpr ReasonRow kRows[] = {
     {Reason::depths_unread, "degraded", "take other splits than sampled"},
     {Reason::filter_cut, "degraded", "see the ranges of the filter's settings"},
     {Reason::depth_coarse, "degraded", "take depth_format d32f, or a near plane farther from the light"},
+    {Reason::tint_failed, "degraded", "free memory, or set a budget"},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(Reason::count));
 

@@ -86,6 +86,7 @@ constexpr std::array kQuality{
     SettingUse{"resolution"},
     SettingUse{"caster_faces", for_depths, "a filter other than exact and exact_soft"},
     SettingUse{"layers"},
+    SettingUse{"translucent_casters"},
     SettingUse{"penumbra_rays", for_source_rays, "filter exact_soft"},
     SettingUse{"filter_seed", for_seed, "filter poisson_rotated, poisson_stratified, pcss or exact_soft"},
     SettingUse{"filter_cell_m", for_cells, "a filter with random taps, and filter_seed world"},

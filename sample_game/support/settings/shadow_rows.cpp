@@ -127,6 +127,13 @@ constexpr std::array kShadowRows{
                  .editor = kNumber,
                  .slider_most = kAllShadowLayers,
                  .whole = true},
+    LightSetting{.key = "translucent_casters",
+                 .field = "LightShadow::translucent_casters",
+                 .values = "on | off",
+                 .meaning = "glass and blended casters tint the light that passes; off: they cast nothing",
+                 .set = set_switch<Shadow<&S::translucent_casters>>,
+                 .get = get_switch<Shadow<&S::translucent_casters>>,
+                 .editor = kToggle},
 };
 
 constexpr std::array kSizeRows{

@@ -10,7 +10,11 @@ void main() {
     LightSample incoming = light_at(fragment_position_ca);
     colour_out = vec4(0.0);
     if (incoming.reaches && dot(surface.geometric_normal, incoming.to_light) > 0.0) {
-        float falls = luminance(incoming.radiance) * max(dot(surface.shading_normal, incoming.to_light), 0.0);
-        colour_out = caught_sum((1.0 - visible_share(surface)) * falls, falls);
+        float cosine = max(dot(surface.shading_normal, incoming.to_light), 0.0);
+        float falls = luminance(incoming.radiance) * cosine;
+        if (kTinted)
+            colour_out = caught_sum(falls - luminance(arriving(surface, incoming)) * cosine, falls);
+        else
+            colour_out = caught_sum((1.0 - visible_share(surface)) * falls, falls);
     }
 }

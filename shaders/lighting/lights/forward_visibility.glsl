@@ -3,6 +3,7 @@
 #include "row.glsl"
 #include "shadow/lookup/light_block.glsl"
 #include "shadow/lookup/visibility.glsl"
+#include SHADOW_TINT
 #include "shadow/lookup/shadow_layers.glsl"
 #include "lighting/lights/light_sample.glsl"
 #if SHADOW_RAYS
@@ -24,4 +25,12 @@ float looked_up_share(vec3 geometric, uint triangle) {
 float visible_share(BlendedSurface surface) {
     if (!takes_shadow(received_layers(surface.instance))) return 1.0;
     return looked_up_share(surface.geometric_normal, surface.triangle);
+}
+
+// Returns the light that reaches it: the visible share, in the colour that translucent casters let through.
+vec3 arriving(BlendedSurface surface, LightSample incoming) {
+    vec3 arrives = visible_share(surface) * incoming.radiance;
+    if (kTinted && takes_shadow(received_layers(surface.instance)))
+        arrives *= shadow_tint(fragment_position_ca, surface.geometric_normal, kRebuiltRelative * length(fragment_position_ca));
+    return arrives;
 }

@@ -43,7 +43,7 @@ void visit_triangles(const GpuScene& gpu, const InstanceItem& item, const glm::d
     const glm::dvec3 origin = item.translation_ws_m - from_ws_m;
     for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
         const GpuScene::SubmeshRange& submesh = gpu.submesh(mesh.first_submesh + s);
-        if (gpu.material(submesh.material).alpha_mode == assets::AlphaMode::blend) continue;
+        if (gpu.material(submesh.material).transmits) continue;
         const std::size_t first = submesh.first_index - mesh.first_index;
         for (std::size_t i = first; i + 2 < first + submesh.index_count; i += 3) {
             Corners c;

@@ -27,7 +27,7 @@ void fill(const GpuScene& gpu, std::uint32_t mesh, const GpuScene::MeshShape& sh
     for (std::uint32_t s = 0; s < range.submesh_count; ++s) {
         const GpuScene::SubmeshRange& submesh = gpu.submesh(range.first_submesh + s);
         const assets::AlphaMode alpha = gpu.material(submesh.material).alpha_mode;
-        if (alpha == assets::AlphaMode::blend) continue;
+        if (gpu.material(submesh.material).transmits) continue;
         const std::uint32_t first = (submesh.first_index - range.first_index) / 3;
         for (std::uint32_t t = first; t < first + submesh.index_count / 3; ++t) {
             included[t] = alpha == assets::AlphaMode::opaque;

@@ -20,7 +20,7 @@ struct CasterTopology {
     };
     assets::SurfaceEdges edges;                 // edges of its opaque triangles
     std::vector<Facet> facets;                  // per triangle of the mesh's list
-    std::vector<std::uint32_t> opaque, masked;  // indices of triangles; blended ones are in neither
+    std::vector<std::uint32_t> opaque, masked;  // indices of triangles; translucent ones are in neither
     glm::dvec3 reach_ms{0.0};                   // the largest coordinate of any vertex, along each axis
 };
 

@@ -26,16 +26,22 @@ public:
         prefiltered_lost_ = true;
         degrade(reason);
     }
+    /// Takes the layers of translucent casters out of use. These cast nothing then.
+    void lose_tint(Reason reason) {
+        tint_lost_ = true;
+        degrade(reason);
+    }
 
     bool is_skipped() const { return skip_ != Reason::none; }
     Reason skipped() const { return skip_; }
     Reason degraded() const { return note_; }
     bool has_lost_maps() const { return maps_lost_; }
     bool has_lost_prefiltered() const { return prefiltered_lost_; }
+    bool has_lost_tint() const { return tint_lost_; }
 
 private:
     Reason skip_ = Reason::none, note_ = Reason::none;
-    bool maps_lost_ = false, prefiltered_lost_ = false;
+    bool maps_lost_ = false, prefiltered_lost_ = false, tint_lost_ = false;
 };
 
 }  // namespace gnomon::shadow

@@ -9,6 +9,7 @@
 #include "gnomon/frame.h"
 #include "gnomon/light.h"
 #include "systems/shadow/frame/shader_key.h"
+#include "systems/shadow/frame/tint_assignment.h"
 #include "systems/shadow/frame/view_limits.h"
 #include "systems/visibility/ray_records.h"
 
@@ -91,6 +92,7 @@ struct LightingLight {
     gl::BufferHandle ends{};               // occluder pyramid; {0} unless the source has a size
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
+    TintTextures tint;              // {0} without row.tint
     FallbackLookup plain;
     gl::Rect reach{};             // pixels within the light's range; empty: none
     gl::Rect screen{};            // the same; empty also where none of the scene's instances is seen within it

@@ -18,6 +18,19 @@ std::string_view map_reading(const ShaderKey& row) {
 
 std::string file(std::string_view name, const std::string& path) { return std::string(name) + " \"" + path + "\""; }
 
+/// Returns the file that gives the colour of a light behind translucent casters.
+std::string_view tint_file(TintLookup tint) {
+    switch (tint) {
+        case TintLookup::none:
+            break;
+        case TintLookup::layers:
+            return "shadow/lookup/tint/layers.glsl";
+        case TintLookup::rays:
+            return "shadow/lookup/tint/rays.glsl";
+    }
+    return "shadow/lookup/tint/none.glsl";
+}
+
 }  // namespace
 
 std::vector<std::string> program_defines(const ShaderKey& row) {
@@ -40,6 +53,7 @@ std::vector<std::string> program_defines(const ShaderKey& row) {
     defines.push_back(file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_" + reading + ".glsl"));
     defines.push_back(file("SHADOW_CUBE_MAP", "shadow/lookup/maps/cube_" + reading + ".glsl"));
     const std::string answer = !is_shadowed ? "unshadowed" : (row.rays ? "by_rays" : "by_map");
+    defines.push_back(file("SHADOW_TINT", std::string(tint_file(row.tint))));
     defines.push_back(file("SHADOW_VISIBILITY", "shadow/lookup/visibility/" + answer + ".glsl"));
     return defines;
 }

@@ -1,9 +1,14 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gnomon::shadow {
+
+/// How a program finds what the light's translucent casters let through: by layers beside its map, or by rays through a
+/// tree of these casters. none: it has no such casters.
+enum class TintLookup : std::uint8_t { none, layers, rays };
 
 /// Key of the shader permutation that evaluates a light, from its rows of the light-kind and filter tables. File names
 /// are paths below shaders/ with static lifetime. An empty filter_file means an unshadowed light.
@@ -22,6 +27,7 @@ struct ShaderKey {
     bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
     bool antialias = false;    // visibility is a share of the pixel's area: AreaShares::marked
     bool spread = false;       // taps and rays of a source begin all over the pixel's area: AreaShares::spread
+    TintLookup tint = TintLookup::none;  // read by programs that add light to a picture alone
     bool operator==(const ShaderKey&) const = default;
 };
 

@@ -12,6 +12,7 @@
 #include "systems/shadow/frame/receiver_caster_sets.h"
 #include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/frame/shadow_view.h"
+#include "systems/shadow/frame/tint_assignment.h"
 #include "systems/shadow/frame/update_plan.h"
 
 namespace gnomon::shadow {
@@ -31,6 +32,8 @@ struct ShadowFrame {
     std::vector<BudgetDecision> decisions;  // one per light
     std::vector<MapAssignment> maps;        // one per view
     std::vector<UpdatePlan> updates;        // one per view
+    std::vector<TintAssignment> tints;      // one per view; empty: no view has translucent casters
+    std::vector<std::uint8_t> ray_tints;    // one per light: 1: its rays meet translucent casters; empty: no light's do
     std::vector<double> clearances_m;       // one per light: nearest caster of an area light that no map contains
     std::vector<LightingInputs> inputs;     // one per camera view
     History next_history;                   // history of fits and budget for the next frame

@@ -224,12 +224,24 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
         set_area_shares(light, request.map.filter, out.row);
         out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
+        if (!in.ray_tints.empty() && in.ray_tints[i] && !in.drawn.statuses[i].has_lost_tint()) {
+            out.row.tint = out.plain.row.tint = TintLookup::rays;
+            out.tint = {{}, {}, in.tint_tree};
+        }
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
         // also without a map
         filter_record(light.tuning.kernel, request.map, consumer, out.record);
         out.record.radiance.w = source_size(light.kind, request.map.filtering);
         out.sampler = in.samplers.of(MapReading::depths);
     }
+}
+
+/// Publishes the layers of translucent casters of a light without rays. All of its views have the same textures.
+void publish_tint(const PublishInputs& in, std::size_t v, LightingLight& out) {
+    if (in.tints.empty() || !in.tints[v].textures.depths || in.drawn.statuses[in.drawn.view(v).light].has_lost_tint())
+        return;
+    out.tint = in.tints[v].textures;
+    out.row.tint = out.plain.row.tint = TintLookup::layers;
 }
 
 /// Publishes what every light has, with or without a map.
@@ -275,6 +287,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
         out.record.moments = source_record(request.projection, in.clearances_m[view.light]);
     out.record.bias.y = map.cascade_blend;
     out.record.options.z = view.cascade.seen_to_m > 0.0 ? 1 : 0;
+    publish_tint(in, v, out);
 }
 
 }  // namespace

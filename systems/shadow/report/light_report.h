@@ -4,6 +4,7 @@
 #include "systems/shadow/culling/contribution_culling.h"
 #include "systems/shadow/frame/drawn_views.h"
 #include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/maps/tint_maps.h"
 #include "systems/shadow/report/draw_times.h"
 
 namespace gnomon::shadow {
@@ -13,6 +14,7 @@ struct ReportInputs {
     const DrawnViews& drawn;
     const ReceiverCasterSets& sets;
     const MapCache& maps;
+    const TintMaps& tints;
     const DrawTimes& times;
     const ContributionCulling& dim;
     bool has_rays = false;           // the casters' trees are on the device

@@ -78,6 +78,46 @@ TEST(MaterialImport, ReadsFactorsAndModes) {
     EXPECT_FALSE(plain.double_sided);
 }
 
+TEST(MaterialImport, ReadsTransmissionAndVolume) {
+    const json pbr = {{"metallicFactor", 0}};
+    const auto transmitting = [](double factor) { return json{{"transmissionFactor", factor}}; };
+    GltfBuilder builder;
+    builder.push("materials", {{"pbrMetallicRoughness", pbr},
+                               {"extensions", {{"KHR_materials_transmission", transmitting(0.8)}}}});
+    builder.push("materials", {{"pbrMetallicRoughness", pbr},
+                               {"extensions",
+                                {{"KHR_materials_transmission", transmitting(1.0)},
+                                 {"KHR_materials_volume",
+                                  {{"thicknessFactor", 2.0},
+                                   {"attenuationDistance", 0.5},
+                                   {"attenuationColor", {1.0, 0.25, 0.0}}}}}}});
+    // A volume transmits nothing by itself; a metal transmits nothing.
+    builder.push("materials", {{"pbrMetallicRoughness", pbr},
+                               {"extensions", {{"KHR_materials_volume", {{"thicknessFactor", 1.0}}}}}});
+    builder.push("materials", {{"extensions", {{"KHR_materials_transmission", transmitting(1.0)}}}});
+    const SceneData scene = loaded(builder.gltf());
+    EXPECT_THAT(scene.warnings, testing::IsEmpty());
+    EXPECT_EQ(scene.materials[0].transmission, glm::vec3(0.8F));
+    EXPECT_TRUE(assets::transmits(scene.materials[0]));
+    // Each of a body's two surfaces has half of its thickness: 0.25 to the power of 2 m / 0.5 m / 2.
+    EXPECT_FLOAT_EQ(scene.materials[1].transmission.x, 1.0F);
+    EXPECT_FLOAT_EQ(scene.materials[1].transmission.y, 0.0625F);
+    EXPECT_FLOAT_EQ(scene.materials[1].transmission.z, 0.0F);
+    EXPECT_FALSE(assets::transmits(scene.materials[2]));
+    EXPECT_FALSE(assets::transmits(scene.materials[3]));
+}
+
+TEST(MaterialImport, TakesTransmissionOutOfRange) {
+    GltfBuilder builder;
+    builder.push("materials", {{"extensions",
+                                {{"KHR_materials_transmission", {{"transmissionFactor", 7}}},
+                                 {"KHR_materials_volume",
+                                  {{"thicknessFactor", -1}, {"attenuationDistance", 0}, {"attenuationColor", {1, 1, 1}}}}}}});
+    const SceneData scene = loaded(builder.gltf());
+    EXPECT_EQ(scene.materials[0].transmission, glm::vec3(1.0F));
+    EXPECT_FALSE(scene.warnings.empty());
+}
+
 TEST(MaterialImport, DecodesTheBaseColourTextureWithItsSampler) {
     const SceneData scene = loaded(masked_triangle(kPng).gltf());
     EXPECT_THAT(scene.warnings, testing::IsEmpty());

@@ -1,4 +1,6 @@
 // Cascades of a directional light, near to far. Requires map_2d.glsl, cascade_bias() and cascade_range_m().
+#include "shadow/lookup/kinds/cascade_choice.glsl"
+
 ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
@@ -31,15 +33,6 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
 float shadow_share(ShadowPoint point) { return orthographic_share(point.reference); }
 float depth_at_share(ShadowPoint point, float share) { return 1.0 - share; }
 
-// Returns a position's distance along the view that the cascades are fitted to, metres.
-float fitted_distance_m(vec3 position_ca) { return dot(position_ca, light.position.xyz) + light.position.w; }
-
-int cascade_at(float distance_m) {
-    int i = 0;
-    while (i + 1 < light.options.x && distance_m > light.views[i].anchor_from_camera.w) ++i;
-    return i;
-}
-
 // Returns 0 up to the last part of a cascade's slice, then a share that rises to 1 where that ends.
 float share_between(float start_m, float end_m, float distance_m) {
     return end_m > start_m ? clamp((distance_m - start_m) / (end_m - start_m), 0.0, 1.0) : 1.0;
@@ -60,7 +53,7 @@ float share_toward_border(ShadowPoint point) {
 
 // Returns the first cascade that may serve a place, and the last. The first of these with the place in its map serves it.
 ivec2 serving_views(vec3 position_ca) {
-    return ivec2(light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0, light.options.x - 1);
+    return ivec2(first_cascade(position_ca), light.options.x - 1);
 }
 
 // Cascade of the last lookup. A second lookup starts after it.

@@ -51,10 +51,11 @@ ShaderKey shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl"
 ShaderKey full_row() {
     ShaderKey row = shadowed_row();
     auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
-           masks, footprint, antialias, spread] = row;  // all members: another one does not compile
+           masks, footprint, antialias, spread, tint] = row;  // all members: another one does not compile
     for (bool* flag : {&fades, &depths, &manual_bias, &triangles, &sheets, &moments, &rays, &masks, &footprint,
                        &antialias, &spread})
         *flag = true;
+    tint = TintLookup::layers;
     return row;
 }
 
@@ -82,6 +83,21 @@ TEST(ShaderKey, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
     EXPECT_EQ(names_of(program_defines(ShaderKey{"LIGHT_POINT", {}, {}})), names_of(least));
 }
 
+TEST(ShaderKey, EachWayToFindTintsIsAFileOfItsOwn) {
+    std::set<std::string> files;
+    for (const TintLookup tint : {TintLookup::none, TintLookup::layers, TintLookup::rays}) {
+        ShaderKey row = shadowed_row();
+        row.tint = tint;
+        for (const std::string& define : program_defines(row))
+            for (const std::string& path : found(define, "SHADOW_TINT \"([^\"]*)\"")) {
+                files.insert(path);
+                EXPECT_TRUE(std::ranges::any_of(shader_files(), [&](const gl::ShaderFile& file) { return file.path == path; }))
+                    << path;
+            }
+    }
+    EXPECT_EQ(files.size(), 3u);
+}
+
 TEST(ShaderKey, TheKindIsTheOnlyOneThatIsSet) {
     EXPECT_THAT(program_defines(ShaderKey{"LIGHT_POINT", {}, {}}),
                 ::testing::IsSupersetOf({"LIGHT_DIRECTIONAL 0", "LIGHT_SPOT 0", "LIGHT_POINT 1"}));
@@ -103,7 +119,7 @@ TEST(ShaderKey, EveryFileThatADefineNamesIsThere) {
                     })) << path;
                 }
         }
-    EXPECT_EQ(files, 2u * 6u * 4u);
+    EXPECT_EQ(files, 2u * 6u * 5u);
 }
 
 /// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,

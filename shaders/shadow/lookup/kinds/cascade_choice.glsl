@@ -1,0 +1,14 @@
+// Cascade by a place's distance along the view that the cascades are fitted to.
+#include "shadow/lookup/light_block.glsl"
+
+// Returns that distance, metres.
+float fitted_distance_m(vec3 position_ca) { return dot(position_ca, light.position.xyz) + light.position.w; }
+
+int cascade_at(float distance_m) {
+    int i = 0;
+    while (i + 1 < light.options.x && distance_m > light.views[i].anchor_from_camera.w) ++i;
+    return i;
+}
+
+// Returns the first cascade that may serve a place.
+int first_cascade(vec3 position_ca) { return light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0; }
