@@ -15,8 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 5> kKnownExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                                              "KHR_materials_unlit", "KHR_mesh_quantization",
+constexpr std::array<std::string_view, 6> kKnownExtensions = {"EXT_lights_area",       "KHR_lights_punctual",
+                                                              "KHR_materials_emissive_strength",
+                                                              "KHR_materials_unlit",   "KHR_mesh_quantization",
                                                               "KHR_texture_transform"};
 
 /// Members that tinygltf parses. Hiding all others keeps its parser away from them.

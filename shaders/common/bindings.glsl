@@ -22,6 +22,7 @@ const int kDepthBinBuffer = 0;
 const int kLineBuffer = 0;
 const int kRayListBuffer = 1;
 const int kPyramidBuffer = 2;
+const int kAreaTableBuffer = 3;
 const int kMaskBuffer = 7;
 
 // Texture units of surfaces as they are drawn.

@@ -35,6 +35,18 @@ std::optional<glm::dmat3> looking_along(const glm::dvec3& direction) {
     return math::basis_from_back(-glm::normalize(direction / size));
 }
 
+/// Returns a rotation that looks along `direction`, turned about it so that its X axis follows `right`. Empty: it has no
+/// direction.
+std::optional<glm::dmat3> orientation_of(const LightDesc& desc) {
+    std::optional<glm::dmat3> found = looking_along(desc.direction);
+    if (!found || !math::is_finite(desc.right)) return found;
+    const glm::dvec3 back = (*found)[2], across = desc.right - back * glm::dot(desc.right, back);
+    const double length = glm::length(across);
+    constexpr double kLeastShare = 1.0e-9;  // below it rounding alone would choose the way
+    if (!(length > kLeastShare * glm::length(desc.right))) return found;
+    return glm::dmat3(across / length, glm::cross(back, across / length), back);
+}
+
 /// Writes a field. Returns true if its value changed, NaN included.
 template <class T>
 bool put_field(T& field, const T& value) {
@@ -51,7 +63,7 @@ bool can_shine(const LightDesc& desc, DropReason& fault) {
     if (!math::is_finite(desc.position_m)) return false;
     fault = DropReason::zero_rotation;
     const LightFacts& facts = light_facts(desc.light.kind);
-    return !(facts.parallel || facts.cone) || looking_along(desc.direction).has_value();
+    return !facts.aimed() || looking_along(desc.direction).has_value();
 }
 
 /// Writes all but the name. Sets shape_version to `version` if that differs. Returns true if anything does.
@@ -59,13 +71,15 @@ bool put_light(const LightDesc& desc, const ShadowTuning& tuning, std::uint64_t 
     const Light& light = desc.light;
     bool shape = put_field(item.kind, light.kind);
     shape |= put_field(item.position_ws_m, desc.position_m);
-    shape |= put_field(item.rotation_ws, looking_along(desc.direction).value_or(glm::dmat3(1.0)));
+    shape |= put_field(item.rotation_ws, orientation_of(desc).value_or(glm::dmat3(1.0)));
     shape |= put_field(item.range_m, static_cast<double>(light.range_m));
     shape |= put_field(item.inner_cone_rad, static_cast<double>(light.inner_cone_rad));
     shape |=
         put_field(item.outer_cone_rad, std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>()));
     shape |= put_field(item.source_radius_m, light.source_radius_m);
     shape |= put_field(item.sun_radius_rad, light.sun_radius_rad);
+    shape |= put_field(item.width_m, light.width_m);
+    shape |= put_field(item.height_m, light.height_m);
     shape |= put_field(item.has_shadow, true);
     shape |= put_field(item.shadow, desc.shadow);
     shape |= put_field(item.tuning, tuning);

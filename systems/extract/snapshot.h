@@ -47,8 +47,9 @@ struct LightItem {
     float intensity = 0.0f;
     double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    float source_radius_m = 0.0f;  // spot and point
+    float source_radius_m = 0.0f;  // of all but suns and rectangles
     float sun_radius_rad = 0.0f;   // sun
+    float width_m = 1.0f, height_m = 1.0f;  // rectangle; width_m: also length of a tube
     bool has_shadow = false;       // a LightShadow component exists
     LightShadow shadow = {};
     ShadowTuning tuning = {};  // the defaults where there is no LightShadow

@@ -2,6 +2,7 @@
 #define BLENDED_RECEIVER 1
 #include "lighting/lights/blended_surface.glsl"
 #include "lighting/lights/forward_visibility.glsl"
+#include "lighting/lights/reflected_light.glsl"
 #include "lighting/catchers/caught_sum.glsl"
 
 void main() {
@@ -9,8 +10,8 @@ void main() {
     BlendedSurface surface = blended_surface();
     LightSample incoming = light_at(fragment_position_ca);
     colour_out = vec4(0.0);
-    if (incoming.reaches && dot(surface.geometric_normal, incoming.to_light) > 0.0) {
-        float falls = luminance(incoming.radiance) * max(dot(surface.shading_normal, incoming.to_light), 0.0);
+    if (!is_unreached(surface.geometric_normal, incoming)) {
+        float falls = luminance(incoming.radiance) * falling_share(incoming, surface.shading_normal);
         colour_out = caught_sum((1.0 - visible_share(surface)) * falls, falls);
     }
 }

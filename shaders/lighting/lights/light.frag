@@ -6,7 +6,7 @@
 #include "shadow/lookup/light_block.glsl"
 #include "shadow/lookup/visibility.glsl"
 #include VISIBLE_SHARE
-#include "lighting/lights/brdf.glsl"
+#include "lighting/lights/reflected_light.glsl"
 #include "lighting/post/picture_sum.glsl"
 layout(location = 0) out vec4 colour_out;
 
@@ -21,7 +21,7 @@ void main() {
 #ifdef SOME_UNLIT
     if (surface.unlit) visible = 0.0;
 #endif
-    vec3 reflected = brdf_times_cosine(surface.colour, surface.metallic, surface.roughness, surface.shading_normal,
-                                       surface.to_viewer, incoming.to_light);
+    vec3 reflected = reflected_share(incoming, surface.colour, surface.metallic, surface.roughness, surface.shading_normal,
+                                     surface.to_viewer);
     colour_out = vec4(visible > 0.0 ? in_picture(visible * incoming.radiance * reflected) : vec3(0.0), 0.0);
 }

@@ -11,7 +11,10 @@
 
 namespace gnomon::shadow {
 
-/// Volume that a light can reach without occluders: its range, and a spot's cone.
+/// Returns the half-space into which a light shines that does so from one side of its plane.
+math::Plane shone_side(const LightItem& light);
+
+/// Volume that a light can reach without occluders: its range, and a spot's cone or the side of its plane.
 class LightReach {
 public:
     explicit LightReach(const LightItem& light);
@@ -20,7 +23,7 @@ public:
     math::Overlap overlap(const math::Aabb& box) const;
     /// Returns the part of a box within the range's bounding box.
     math::Aabb clipped(const math::Aabb& box) const { return range_m_ ? math::intersection(box, around_) : box; }
-    /// Returns planes around a spot's cone; none for other lights.
+    /// Returns planes around a spot's cone, or the plane before which a light shines from one side; none for others.
     std::span<const math::Plane> cone() const;
 
 private:
@@ -28,6 +31,7 @@ private:
     std::optional<double> range_m_;
     math::Aabb around_;
     std::optional<std::array<math::Plane, math::kConeSides + 1>> cone_;
+    std::optional<math::Plane> side_;  // of a light that shines from one side of its plane
 };
 
 }  // namespace gnomon::shadow

@@ -1,0 +1,239 @@
+#include "bench/area_table/lobe_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace gnomon::bench {
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+constexpr double kLeastAlpha = 1.0e-3, kLeastCosine = 1.0e-4;  // as in brdf.glsl
+constexpr int kSide = 32;                                      // samples along a side of the unit square
+constexpr double kHold = 1.0e-3;      // what a lean of alpha off the mean costs, beside a miss of at most 2
+constexpr double kLeastAbove = 0.5;  // a lobe with its middle below the surface fits nothing
+constexpr std::size_t kParameters = 4;
+constexpr int kMostSteps = 300;
+constexpr double kDone = 1.0e-5;  // relative spread of the simplex' values
+
+using Parameters = std::array<double, kParameters>;  // lean, along, across, skew
+
+/// Transform from the cosine's space, and its inverse.
+struct Transform {
+    glm::dmat3 forth{1.0}, back{1.0};
+    double determinant = 1.0, above = 1.0;  // share of the lobe above the surface
+};
+
+Transform transform_of(const Parameters& p, double alpha, double cosine) {
+    const double turn_rad = alpha * p[0] - std::acos(cosine), s = std::sin(turn_rad), c = std::cos(turn_rad);
+    const glm::dmat3 turned(glm::dvec3(c, 0.0, s), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(-s, 0.0, c));
+    const glm::dmat3 stretched(glm::dvec3(alpha * p[1], 0.0, 0.0), glm::dvec3(0.0, alpha * p[2], 0.0),
+                               glm::dvec3(alpha * p[3], 0.0, 1.0));
+    Transform t;
+    t.forth = turned * stretched;
+    t.back = glm::inverse(t.forth);
+    t.determinant = std::abs(glm::determinant(t.forth));
+    // The surface's plane, carried into the cosine's space, cuts it at an angle from its own.
+    const glm::dvec3 normal = glm::normalize(glm::transpose(t.forth) * glm::dvec3(0.0, 0.0, 1.0));
+    t.above = 0.5 * (1.0 + normal.z);
+    return t;
+}
+
+double density(const Transform& t, const glm::dvec3& toward) {
+    if (!(toward.z > 0.0)) return 0.0;
+    const glm::dvec3 original = t.back * toward;
+    const double length = glm::length(original), cosine = original.z / length;
+    return cosine > 0.0 ? cosine / (kPi * t.determinant * length * length * length * t.above) : 0.0;
+}
+
+glm::dvec3 viewer(double cosine) { return {-std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
+
+double smith_of(double alpha, double cosine) {
+    const double a2 = alpha * alpha;
+    return std::sqrt(cosine * cosine * (1.0 - a2) + a2);
+}
+
+/// Returns a direction that the viewer sees reflected, by visible normals (Heitz 2018, "Sampling the GGX Distribution of
+/// Visible Normals").
+glm::dvec3 reflected_at(double alpha, double cosine, const glm::dvec2& at) {
+    const glm::dvec3 v = viewer(cosine);
+    const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * v.x, alpha * v.y, v.z));
+    const double across = stretched.x * stretched.x + stretched.y * stretched.y;
+    const glm::dvec3 first = across > 0.0 ? glm::dvec3(-stretched.y, stretched.x, 0.0) / std::sqrt(across)
+                                          : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 second = glm::cross(stretched, first);
+    const double radius = std::sqrt(at.x), angle_rad = 2.0 * kPi * at.y, share = 0.5 * (1.0 + stretched.z);
+    const double x = radius * std::cos(angle_rad);
+    const double y = (1.0 - share) * std::sqrt(1.0 - x * x) + share * radius * std::sin(angle_rad);
+    const glm::dvec3 found = first * x + second * y + stretched * std::sqrt(std::max(1.0 - x * x - y * y, 0.0));
+    const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * found.x, alpha * found.y, std::max(found.z, 0.0)));
+    return 2.0 * glm::dot(v, half) * half - v;
+}
+
+glm::dvec2 in_square(int i) { return {(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide}; }
+
+/// Directions in which the lobe is sampled, with its density there.
+struct Lobe {
+    double alpha = 1.0, cosine = 1.0;
+    double reflected = 0.0, grazing = 0.0;
+    glm::dvec3 middle{0.0};
+    std::vector<glm::dvec3> toward;
+    std::vector<double> values;
+};
+
+Lobe sampled_lobe(double alpha, double cosine) {
+    Lobe lobe{alpha, cosine, 0.0, 0.0, glm::dvec3(0.0), {}, {}};
+    const glm::dvec3 v = viewer(cosine);
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const glm::dvec3 l = reflected_at(alpha, cosine, in_square(i));
+        if (!(l.z > 0.0)) continue;
+        // Of visible normals: D V cos by their density is the second Smith term alone.
+        const double smith = 2.0 * l.z * (cosine + smith_of(alpha, cosine)) /
+                             (2.0 * (l.z * smith_of(alpha, cosine) + cosine * smith_of(alpha, l.z)));
+        const double weight = smith / (kSide * kSide);
+        lobe.reflected += weight;
+        lobe.grazing += weight * std::pow(1.0 - glm::dot(v, glm::normalize(l + v)), 5.0);
+        lobe.middle += weight * l;
+        lobe.toward.push_back(l);
+    }
+    lobe.middle = glm::normalize(glm::dvec3(lobe.middle.x, 0.0, lobe.middle.z));
+    for (const glm::dvec3& l : lobe.toward) lobe.values.push_back(lobe_at(alpha, cosine, l) / lobe.reflected);
+    return lobe;
+}
+
+/// Returns (f - g)^2 / (f + g), which counts all parts of both lobes by their light.
+double difference(double f, double g) { return f + g > 0.0 ? (f - g) * (f - g) / (f + g) : 0.0; }
+
+/// Returns how far the fit is off: the integral of difference(), over places of both lobes alike.
+double miss(const Lobe& lobe, const Parameters& p) {
+    if (!(p[1] > 1.0e-3 && p[2] > 1.0e-3)) return HUGE_VAL;
+    const Transform t = transform_of(p, lobe.alpha, lobe.cosine);
+    if (!(t.above > kLeastAbove)) return HUGE_VAL;
+    double sum = 0.0;
+    const auto add = [&](double f, double g, double count) {
+        if (f + g > 0.0) sum += difference(f, g) / (f + g) / count;
+    };
+    for (std::size_t i = 0; i < lobe.toward.size(); ++i)
+        add(lobe.values[i], density(t, lobe.toward[i]), static_cast<double>(lobe.toward.size()));
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const glm::dvec2 at = in_square(i);
+        const double radius = std::sqrt(at.x), angle_rad = 2.0 * kPi * at.y;
+        const glm::dvec3 toward = glm::normalize(
+            t.forth * glm::dvec3(radius * std::cos(angle_rad), radius * std::sin(angle_rad), std::sqrt(1.0 - at.x)));
+        if (!(toward.z > 0.0)) continue;
+        add(lobe_at(lobe.alpha, lobe.cosine, toward) / lobe.reflected, density(t, toward), kSide * kSide * t.above);
+    }
+    return sum;
+}
+
+struct Corner {
+    Parameters at{};
+    double value = 0.0;
+};
+
+Parameters between(const Parameters& a, const Parameters& b, double share) {
+    Parameters out{};
+    for (std::size_t i = 0; i < kParameters; ++i) out[i] = a[i] + (b[i] - a[i]) * share;
+    return out;
+}
+
+/// Returns the least of `value` near a start (Nelder and Mead 1965).
+template <class Value>
+Parameters least_near(const Parameters& start, const Parameters& steps, Value value) {
+    std::vector<Corner> simplex{{start, value(start)}};
+    for (std::size_t i = 0; i < kParameters; ++i) {
+        Parameters at = start;
+        if (steps[i] == 0.0) continue;
+        at[i] += steps[i];
+        simplex.push_back({at, value(at)});
+    }
+    const auto order = [](const Corner& a, const Corner& b) { return a.value < b.value; };
+    for (int step = 0; step < kMostSteps; ++step) {
+        std::sort(simplex.begin(), simplex.end(), order);
+        Corner& worst = simplex.back();
+        if (worst.value - simplex.front().value <= kDone * simplex.front().value) break;
+        Parameters middle{};
+        for (std::size_t c = 0; c + 1 < simplex.size(); ++c)
+            for (std::size_t i = 0; i < kParameters; ++i)
+                middle[i] += simplex[c].at[i] / static_cast<double>(simplex.size() - 1);
+        const auto tried = [&](double share) {
+            const Parameters at = between(worst.at, middle, share);
+            return Corner{at, value(at)};
+        };
+        const Corner mirrored = tried(2.0);
+        if (mirrored.value < simplex.front().value) {
+            const Corner farther = tried(3.0);
+            worst = farther.value < mirrored.value ? farther : mirrored;
+        } else if (mirrored.value < simplex[simplex.size() - 2].value) {
+            worst = mirrored;
+        } else if (const Corner nearer = tried(mirrored.value < worst.value ? 1.5 : 0.5); nearer.value < worst.value) {
+            worst = nearer;
+        } else {
+            for (std::size_t c = 1; c < simplex.size(); ++c) {
+                simplex[c].at = between(simplex.front().at, simplex[c].at, 0.5);
+                simplex[c].value = value(simplex[c].at);
+            }
+        }
+    }
+    return std::min_element(simplex.begin(), simplex.end(), order)->at;
+}
+
+Parameters parameters_of(const FittedLobe& lobe) { return {lobe.lean, lobe.along, lobe.across, lobe.skew}; }
+
+}  // namespace
+
+double alpha_of(std::uint32_t column) {
+    const double roughness = static_cast<double>(column) / (kLobesAcross - 1);
+    return std::max(roughness * roughness, kLeastAlpha);
+}
+
+double cosine_of(std::uint32_t row) {
+    const double x = static_cast<double>(row) / (kLobesAcross - 1);
+    return std::max(1.0 - x * x, kLeastCosine);
+}
+
+double lobe_at(double alpha, double cosine, const glm::dvec3& toward) {
+    if (!(toward.z > 0.0)) return 0.0;
+    const glm::dvec3 half = glm::normalize(toward + viewer(cosine));
+    const double a2 = alpha * alpha, by = half.z * half.z * (a2 - 1.0) + 1.0;
+    const double visible = 0.5 / (toward.z * smith_of(alpha, cosine) + cosine * smith_of(alpha, toward.z));
+    return a2 / (kPi * by * by) * visible * toward.z;
+}
+
+double fitted_at(const FittedLobe& lobe, double alpha, double cosine, const glm::dvec3& toward) {
+    return density(transform_of(parameters_of(lobe), alpha, cosine), toward);
+}
+
+FittedLobe fit_lobe(double alpha, double cosine, const FittedLobe& start) {
+    const Lobe lobe = sampled_lobe(alpha, cosine);
+    Parameters p = parameters_of(start), steps{};
+    const auto value = [&](const Parameters& at) {
+        Parameters used = at;
+        if (cosine >= 1.0) used = {0.0, at[1], at[1], 0.0};  // seen along the normal a lobe is round
+        return miss(lobe, used);
+    };
+    if (cosine >= 1.0) {
+        p[0] = p[3] = 0.0;
+        steps = {0.0, 0.1 * p[1], 0.0, 0.0};
+    } else {
+        p[0] = (std::acos(cosine) - std::atan2(lobe.middle.x, lobe.middle.z)) / alpha;
+        steps = {0.0, 0.1 * p[1], 0.1 * p[2], 0.1};
+    }
+    p = least_near(p, steps, value);
+    // A narrow lobe is moved by its skew as by its lean. So the lean is free last, and stays near where the mean is.
+    const double mean = p[0];
+    const auto held = [&](const Parameters& at) { return value(at) + kHold * (at[0] - mean) * (at[0] - mean); };
+    const double lean_step = cosine >= 1.0 ? 0.0 : 0.1;
+    p = least_near(p, {lean_step, 0.3 * steps[1], 0.3 * steps[2], 0.3 * steps[3]}, held);
+    if (cosine >= 1.0) p[2] = p[1];
+    const double above = transform_of(p, alpha, cosine).above;
+    return {p[0], p[1], p[2], p[3], lobe.reflected / above, lobe.grazing / above};
+}
+
+}  // namespace gnomon::bench
