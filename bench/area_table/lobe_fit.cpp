@@ -17,10 +17,11 @@ constexpr double kPi = glm::pi<double>();
 constexpr double kLeastAlpha = 1.0e-3, kLeastCosine = 1.0e-4;  // as in brdf.glsl
 constexpr int kSide = 32;                                      // samples along a side of the unit square
 constexpr double kHold = 1.0e-3;      // what a lean of alpha off the mean costs, beside a miss of at most 2
+constexpr std::array<double, 4> kRound{0.0, 1.5, 1.5, 0.0};  // what narrow lobes are like, seen along the normal
 constexpr double kLeastAbove = 0.5;  // a lobe with its middle below the surface fits nothing
 constexpr std::size_t kParameters = 4;
-constexpr int kMostSteps = 300;
-constexpr double kDone = 1.0e-5;  // relative spread of the simplex' values
+constexpr int kMostSteps = 150;
+constexpr double kDone = 1.0e-4;  // relative spread of the simplex' values
 
 using Parameters = std::array<double, kParameters>;  // lean, along, across, skew
 
@@ -78,17 +79,23 @@ glm::dvec3 reflected_at(double alpha, double cosine, const glm::dvec2& at) {
 
 glm::dvec2 in_square(int i) { return {(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide}; }
 
+/// Returns what the part takes of D V cos.
+double share_of(LobePart part, const glm::dvec3& v, const glm::dvec3& l) {
+    if (part == LobePart::reflected) return 1.0;
+    return std::pow(std::max(1.0 - glm::dot(v, glm::normalize(l + v)), 0.0), 5.0);
+}
+
 /// Directions in which the lobe is sampled, with its density there.
 struct Lobe {
+    LobePart part = LobePart::reflected;
     double alpha = 1.0, cosine = 1.0;
-    double reflected = 0.0, grazing = 0.0;
+    double size = 0.0, reflected = 0.0;  // integrals of the part, and of the part that is sampled
     glm::dvec3 middle{0.0};
     std::vector<glm::dvec3> toward;
-    std::vector<double> values;
 };
 
-Lobe sampled_lobe(double alpha, double cosine) {
-    Lobe lobe{alpha, cosine, 0.0, 0.0, glm::dvec3(0.0), {}, {}};
+Lobe sampled_lobe(LobePart part, double alpha, double cosine) {
+    Lobe lobe{part, alpha, cosine, 0.0, 0.0, glm::dvec3(0.0), {}};
     const glm::dvec3 v = viewer(cosine);
     for (int i = 0; i < kSide * kSide; ++i) {
         const glm::dvec3 l = reflected_at(alpha, cosine, in_square(i));
@@ -97,13 +104,13 @@ Lobe sampled_lobe(double alpha, double cosine) {
         const double smith = 2.0 * l.z * (cosine + smith_of(alpha, cosine)) /
                              (2.0 * (l.z * smith_of(alpha, cosine) + cosine * smith_of(alpha, l.z)));
         const double weight = smith / (kSide * kSide);
+        const double counted = weight * share_of(part, v, l);
         lobe.reflected += weight;
-        lobe.grazing += weight * std::pow(1.0 - glm::dot(v, glm::normalize(l + v)), 5.0);
-        lobe.middle += weight * l;
+        lobe.size += counted;
+        lobe.middle += counted * l;
         lobe.toward.push_back(l);
     }
     lobe.middle = glm::normalize(glm::dvec3(lobe.middle.x, 0.0, lobe.middle.z));
-    for (const glm::dvec3& l : lobe.toward) lobe.values.push_back(lobe_at(alpha, cosine, l) / lobe.reflected);
     return lobe;
 }
 
@@ -116,18 +123,18 @@ double miss(const Lobe& lobe, const Parameters& p) {
     const Transform t = transform_of(p, lobe.alpha, lobe.cosine);
     if (!(t.above > kLeastAbove)) return HUGE_VAL;
     double sum = 0.0;
-    const auto add = [&](double f, double g, double count) {
-        if (f + g > 0.0) sum += difference(f, g) / (f + g) / count;
+    const auto add = [&](const glm::dvec3& l, double count) {
+        const double f = lobe_at(lobe.part, lobe.alpha, lobe.cosine, l) / lobe.size, g = density(t, l);
+        const double sampled = lobe_at(LobePart::reflected, lobe.alpha, lobe.cosine, l) / lobe.reflected;
+        if (sampled + g > 0.0) sum += difference(f, g) / (sampled + g) / count;
     };
-    for (std::size_t i = 0; i < lobe.toward.size(); ++i)
-        add(lobe.values[i], density(t, lobe.toward[i]), static_cast<double>(lobe.toward.size()));
+    for (const glm::dvec3& l : lobe.toward) add(l, static_cast<double>(lobe.toward.size()));
     for (int i = 0; i < kSide * kSide; ++i) {
         const glm::dvec2 at = in_square(i);
         const double radius = std::sqrt(at.x), angle_rad = 2.0 * kPi * at.y;
         const glm::dvec3 toward = glm::normalize(
             t.forth * glm::dvec3(radius * std::cos(angle_rad), radius * std::sin(angle_rad), std::sqrt(1.0 - at.x)));
-        if (!(toward.z > 0.0)) continue;
-        add(lobe_at(lobe.alpha, lobe.cosine, toward) / lobe.reflected, density(t, toward), kSide * kSide * t.above);
+        if (toward.z > 0.0) add(toward, kSide * kSide * t.above);
     }
     return sum;
 }
@@ -198,42 +205,40 @@ double cosine_of(std::uint32_t row) {
     return std::max(1.0 - x * x, kLeastCosine);
 }
 
-double lobe_at(double alpha, double cosine, const glm::dvec3& toward) {
+double lobe_at(LobePart part, double alpha, double cosine, const glm::dvec3& toward) {
     if (!(toward.z > 0.0)) return 0.0;
     const glm::dvec3 half = glm::normalize(toward + viewer(cosine));
     const double a2 = alpha * alpha, by = half.z * half.z * (a2 - 1.0) + 1.0;
     const double visible = 0.5 / (toward.z * smith_of(alpha, cosine) + cosine * smith_of(alpha, toward.z));
-    return a2 / (kPi * by * by) * visible * toward.z;
+    return a2 / (kPi * by * by) * visible * toward.z * share_of(part, viewer(cosine), toward);
 }
 
 double fitted_at(const FittedLobe& lobe, double alpha, double cosine, const glm::dvec3& toward) {
     return density(transform_of(parameters_of(lobe), alpha, cosine), toward);
 }
 
-FittedLobe fit_lobe(double alpha, double cosine, const FittedLobe& start) {
-    const Lobe lobe = sampled_lobe(alpha, cosine);
-    Parameters p = parameters_of(start), steps{};
+FittedLobe fit_lobe(LobePart part, double alpha, double cosine, std::span<const FittedLobe> starts) {
+    const Lobe lobe = sampled_lobe(part, alpha, cosine);
+    const double mean = cosine >= 1.0 ? 0.0 : (std::acos(cosine) - std::atan2(lobe.middle.x, lobe.middle.z)) / alpha;
     const auto value = [&](const Parameters& at) {
         Parameters used = at;
         if (cosine >= 1.0) used = {0.0, at[1], at[1], 0.0};  // seen along the normal a lobe is round
         return miss(lobe, used);
     };
-    if (cosine >= 1.0) {
-        p[0] = p[3] = 0.0;
-        steps = {0.0, 0.1 * p[1], 0.0, 0.0};
-    } else {
-        p[0] = (std::acos(cosine) - std::atan2(lobe.middle.x, lobe.middle.z)) / alpha;
-        steps = {0.0, 0.1 * p[1], 0.1 * p[2], 0.1};
-    }
-    p = least_near(p, steps, value);
     // A narrow lobe is moved by its skew as by its lean. So the lean is free last, and stays near where the mean is.
-    const double mean = p[0];
     const auto held = [&](const Parameters& at) { return value(at) + kHold * (at[0] - mean) * (at[0] - mean); };
-    const double lean_step = cosine >= 1.0 ? 0.0 : 0.1;
-    p = least_near(p, {lean_step, 0.3 * steps[1], 0.3 * steps[2], 0.3 * steps[3]}, held);
+    const bool round = cosine >= 1.0;
+    const auto best_from = [&](Parameters from) {
+        from[0] = mean;
+        if (round) from[3] = 0.0;
+        const Parameters near = least_near(from, {0.0, 0.2 * from[1], round ? 0.0 : 0.2 * from[2], round ? 0.0 : 0.2}, value);
+        return least_near(near, {round ? 0.0 : 0.1, 0.05 * near[1], round ? 0.0 : 0.05 * near[2], round ? 0.0 : 0.05}, held);
+    };
+    Parameters p = best_from(kRound);
+    for (const FittedLobe& start : starts)
+        if (const Parameters other = best_from(parameters_of(start)); held(other) < held(p)) p = other;
     if (cosine >= 1.0) p[2] = p[1];
-    const double above = transform_of(p, alpha, cosine).above;
-    return {p[0], p[1], p[2], p[3], lobe.reflected / above, lobe.grazing / above};
+    return {p[0], p[1], p[2], p[3], lobe.size / transform_of(p, alpha, cosine).above};
 }
 
 }  // namespace gnomon::bench

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 /// Fits linearly transformed cosines to the specular lobes of shaders/lighting/lights/brdf.glsl (Heitz, Dupuy, Hill and
 /// Neubelt, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", 2016).
@@ -11,10 +12,12 @@ struct FittedLobe {
     double lean = 0.0;                 // angle from the mirrored direction toward the normal
     double along = 1.0, across = 1.0;  // widths in the plane of normal and viewer, and across it
     double skew = 0.0;                 // how much the lobe's middle is drawn along that plane
-    double reflected = 1.0;            // integral of D V cos over the hemisphere, by the share above the surface
-    double grazing = 0.0;              // the same of D V cos (1 - v.h)^5
+    double size = 1.0;                 // integral of what is fitted over the hemisphere, by the share above the surface
     bool operator==(const FittedLobe&) const = default;
 };
+
+/// What is fitted: D V cos, or D V cos (1 - v.h)^5, which Schlick's Fresnel term adds.
+enum class LobePart : unsigned char { reflected, grazing };
 
 /// Number of entries along roughness and along angle.
 inline constexpr std::uint32_t kLobesAcross = 32;
@@ -24,12 +27,13 @@ double alpha_of(std::uint32_t column);
 /// Returns the cosine to the viewer of a row: sqrt(1 - cosine) is row / (kLobesAcross - 1).
 double cosine_of(std::uint32_t row);
 
-/// Returns D V cos of brdf.glsl for the viewer (-sin, 0, cos), 0 below the surface.
-double lobe_at(double alpha, double cosine, const glm::dvec3& toward);
+/// Returns the part's value for the viewer (-sin, 0, cos), 0 below the surface.
+double lobe_at(LobePart part, double alpha, double cosine, const glm::dvec3& toward);
 /// Returns the fitted density above the surface; its integral is 1.
 double fitted_at(const FittedLobe& lobe, double alpha, double cosine, const glm::dvec3& toward);
 
-/// Fits a lobe. `start`: a neighbour's, from which the search begins. Equal input gives equal output.
-FittedLobe fit_lobe(double alpha, double cosine, const FittedLobe& start);
+/// Fits a lobe. `starts`: neighbours', from each of which a search begins, beside a round lobe. Equal input gives equal
+/// output.
+FittedLobe fit_lobe(LobePart part, double alpha, double cosine, std::span<const FittedLobe> starts);
 
 }  // namespace gnomon::bench

@@ -8,21 +8,22 @@
 namespace gnomon::lighting {
 namespace {
 
-constexpr AreaLobe kLobes[] = {
+constexpr AreaLobes kLobes[] = {
 #include "systems/lighting/area_table.inc"
 };
 
 }  // namespace
 
-std::span<const AreaLobe> area_lobes() { return kLobes; }
+std::span<const AreaLobes> area_lobes() { return kLobes; }
 
 bool AreaTable::provide(bool wanted) {
     if (!wanted) release();
     if (!wanted || buffer_) return true;
     std::vector<glm::vec4> texels;
-    for (const AreaLobe& lobe : kLobes) {
-        texels.emplace_back(lobe.lean, lobe.along, lobe.across, lobe.skew);
-        texels.emplace_back(lobe.reflected, lobe.grazing, 0.0f, 0.0f);
+    for (const AreaLobes& lobes : kLobes) {
+        for (const AreaLobe& lobe : {lobes.reflected, lobes.grazing})
+            texels.emplace_back(lobe.lean, lobe.along, lobe.across, lobe.skew);
+        texels.emplace_back(lobes.reflected.size, lobes.grazing.size, 0.0f, 0.0f);
     }
     buffer_ = filled_buffer(device_, "area lights' lobes", texels).handle;
     return static_cast<bool>(buffer_);

@@ -8,13 +8,18 @@
 /// Lobes by which surfaces mirror area lights (shaders/lighting/lights/area_light.glsl).
 namespace gnomon::lighting {
 
-/// Lobe of one roughness and angle, as the shader reads it: FittedLobe of bench/area_table/lobe_fit.h.
+/// One lobe: FittedLobe of bench/area_table/lobe_fit.h.
 struct AreaLobe {
-    float lean, along, across, skew, reflected, grazing;
+    float lean, along, across, skew, size;
+};
+
+/// Lobes of one roughness and angle: of all that is reflected, and of what Fresnel's term adds.
+struct AreaLobes {
+    AreaLobe reflected, grazing;
 };
 
 /// Returns all lobes, rows of rising angle, in each the roughnesses from 0 to 1. gnomon_area_table writes them.
-std::span<const AreaLobe> area_lobes();
+std::span<const AreaLobes> area_lobes();
 
 /// Buffer with the lobes. Owns it. A scene without an area light has none.
 class AreaTable {

@@ -15,9 +15,10 @@ struct ClippedOutline {
     int count;
 };
 
-struct AreaLobe {
-    float lean, along, across, skew;   // FittedLobe of bench/area_table/lobe_fit.h
-    float reflected, grazing;
+// Lobes of a roughness and angle: FittedLobe of bench/area_table/lobe_fit.h.
+struct AreaLobes {
+    vec4 reflected, grazing;   // lean, along, across, skew
+    vec2 size;                 // of each
 };
 
 // Returns where an edge meets the plane z = 0.
@@ -91,42 +92,39 @@ ClippedOutline source_outline(AreaSource source, mat3 frame) {
 }
 
 // Returns the outline in the cosine's own space.
-ClippedOutline transformed_outline(ClippedOutline outline, AreaLobe lobe, float alpha, float turn_rad) {
+ClippedOutline transformed_outline(ClippedOutline outline, vec4 lobe, float alpha, float n_v) {
     ClippedOutline out_of = no_outline();
-    float s = sin(turn_rad), c = cos(turn_rad);
+    float turn_rad = alpha * lobe.x - acos(n_v), s = sin(turn_rad), c = cos(turn_rad);
     vec3 from = vec3(0.0);
     for (int i = -1; i < outline.count; ++i) {
         vec3 p = outline.corners[i < 0 ? max(outline.count - 1, 0) : i];
         float ahead = c * p.z - s * p.x;
-        float across = (c * p.x + s * p.z - alpha * lobe.skew * ahead) / (alpha * lobe.along);
-        vec3 to = vec3(across, p.y / (alpha * lobe.across), ahead);
+        float across = (c * p.x + s * p.z - alpha * lobe.w * ahead) / (alpha * lobe.y);
+        vec3 to = vec3(across, p.y / (alpha * lobe.z), ahead);
         if (i >= 0) out_of = with_edge(out_of, from, to);
         from = to;
     }
     return out_of;
 }
 
-AreaLobe area_lobe(float roughness, float cosine) {
+AreaLobes area_lobes_of(float roughness, float cosine) {
     const float kLast = float(kLobesAcross - 1);
     vec2 at = clamp(vec2(roughness, sqrt(max(1.0 - cosine, 0.0))), 0.0, 1.0) * kLast;
     vec2 low = min(floor(at), vec2(kLast - 1.0)), share = at - low;
-    int entry = 2 * (int(low.y) * kLobesAcross + int(low.x));
-    vec4 shape = vec4(0.0), size = vec4(0.0);
+    int entry = 3 * (int(low.y) * kLobesAcross + int(low.x));
+    AreaLobes lobes;
+    lobes.reflected = vec4(0.0);
+    lobes.grazing = vec4(0.0);
+    lobes.size = vec2(0.0);
     for (int i = 0; i < 4; ++i) {
         bool right = i == 1 || i == 3, above = i >= 2;
         float weight = (right ? share.x : 1.0 - share.x) * (above ? share.y : 1.0 - share.y);
-        int corner = entry + (right ? 2 : 0) + (above ? 2 * kLobesAcross : 0);
-        shape += area_lobes[corner] * weight;
-        size += area_lobes[corner + 1] * weight;
+        int corner = entry + (right ? 3 : 0) + (above ? 3 * kLobesAcross : 0);
+        lobes.reflected += area_lobes[corner] * weight;
+        lobes.grazing += area_lobes[corner + 1] * weight;
+        lobes.size += vec2(area_lobes[corner + 2].x, area_lobes[corner + 2].y) * weight;
     }
-    AreaLobe lobe;
-    lobe.lean = shape.x;
-    lobe.along = shape.y;
-    lobe.across = shape.z;
-    lobe.skew = shape.w;
-    lobe.reflected = size.x;
-    lobe.grazing = size.y;
-    return lobe;
+    return lobes;
 }
 
 // Returns the axes in which the normal is z, and the viewer lies at negative x.
@@ -146,14 +144,16 @@ vec3 area_reflected(AreaSource source, vec3 colour, float metallic, float roughn
     mat3 frame = lobe_frame(n, v);
     ClippedOutline outline = source_outline(source, frame);
     vec3 falls = outline_integral(outline);
-    AreaLobe lobe = area_lobe(roughness, n_v);
+    AreaLobes lobes = area_lobes_of(roughness, n_v);
     float alpha = max(roughness * roughness, 1e-3);
-    float turn_rad = alpha * lobe.lean - acos(n_v);
-    float mirrored = outline_integral(transformed_outline(outline, lobe, alpha, turn_rad)).z;
     vec3 f0 = mix(vec3(0.04), colour, metallic);
+    float f0_mean = (f0.x + f0.y + f0.z) / 3.0, added = (1.0 - f0_mean) * lobes.size.y;
+    // One lobe stands for both parts, by their shares.
+    vec4 lobe = mix(lobes.reflected, lobes.grazing, added / max(added + f0_mean * lobes.size.x, 1e-30));
+    float mirrored = outline_integral(transformed_outline(outline, lobe, alpha, n_v)).z;
     // What a surface does not mirror it scatters: taken for the middle of what falls on it.
     float v_l = dot(v * frame, falls) / max(length(falls), 1e-30);
     vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - sqrt(clamp(0.5 + 0.5 * v_l, 0.0, 1.0)), 5.0);
     vec3 scattered = (1.0 - fresnel) * (1.0 - metallic) * colour * falls.z;
-    return scattered + (f0 * lobe.reflected + (1.0 - f0) * lobe.grazing) * mirrored;
+    return scattered + (f0 * lobes.size.x + (1.0 - f0) * lobes.size.y) * mirrored;
 }

@@ -61,9 +61,10 @@ struct Case {
 std::shared_ptr<const std::vector<vec4>> table() {
     static const auto kTable = [] {
         auto texels = std::make_shared<std::vector<vec4>>();
-        for (const lighting::AreaLobe& l : lighting::area_lobes()) {
-            texels->push_back({l.lean, l.along, l.across, l.skew});
-            texels->push_back({l.reflected, l.grazing, 0.0, 0.0});
+        for (const lighting::AreaLobes& lobes : lighting::area_lobes()) {
+            for (const lighting::AreaLobe& l : {lobes.reflected, lobes.grazing})
+                texels->push_back({l.lean, l.along, l.across, l.skew});
+            texels->push_back({lobes.reflected.size, lobes.grazing.size, 0.0, 0.0});
         }
         return std::shared_ptr<const std::vector<vec4>>(texels);
     }();
