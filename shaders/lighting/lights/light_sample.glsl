@@ -32,8 +32,10 @@ LightSample light_at(vec3 position_ca) {
 
 // Returns whether a surface faces away from all of the source that its filter sees, or lies outside the light's range.
 bool is_unreached(vec3 geometric_normal, LightSample incoming) {
-    float highest_m = dot(geometric_normal, incoming.source.middle_m);
-    if (!kOfMiddle) highest_m += source_extent(incoming.source, geometric_normal);
+    const float kInPlane = 1e-5;   // share of the distance up to which a middle counts as in the surface's plane
+    vec3 middle_m = incoming.source.middle_m;
+    float highest_m = dot(geometric_normal, middle_m);
+    highest_m += kOfMiddle ? -kInPlane * length(middle_m) : source_extent(incoming.source, geometric_normal);
     return !incoming.reaches || highest_m <= 0.0;
 }
 #else
