@@ -100,7 +100,7 @@ Lobe sampled_lobe(LobePart part, double alpha, double cosine) {
     for (int i = 0; i < kSide * kSide; ++i) {
         const glm::dvec3 l = reflected_at(alpha, cosine, in_square(i));
         if (!(l.z > 0.0)) continue;
-        // Of visible normals: D V cos by their density is the second Smith term alone.
+        // D V cos by the density of visible normals is the second Smith term alone.
         const double smith = 2.0 * l.z * (cosine + smith_of(alpha, cosine)) /
                              (2.0 * (l.z * smith_of(alpha, cosine) + cosine * smith_of(alpha, l.z)));
         const double weight = smith / (kSide * kSide);

@@ -32,7 +32,7 @@ double lobe_at(LobePart part, double alpha, double cosine, const glm::dvec3& tow
 /// Returns the fitted density above the surface; its integral is 1.
 double fitted_at(const FittedLobe& lobe, double alpha, double cosine, const glm::dvec3& toward);
 
-/// Fits a lobe. `starts`: neighbours', from each of which a search begins, beside a round lobe. Equal input gives equal
+/// Fits a lobe. `starts`: lobes of neighbours; a search begins from each, and from a round lobe. Equal input gives equal
 /// output.
 FittedLobe fit_lobe(LobePart part, double alpha, double cosine, std::span<const FittedLobe> starts);
 

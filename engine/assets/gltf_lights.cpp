@@ -85,8 +85,8 @@ private:
     LightData light_;
 };
 
-/// Reader of a light of EXT_lights_area, which tinygltf does not parse. Its size is the side of a square, the diameter of
-/// a disc, and with Gnomon's own types that of a sphere or the length of a tube.
+/// Reader of a light of EXT_lights_area, which tinygltf does not parse. Its size is the side of a square or the
+/// diameter of a disc. Gnomon's own types have a sphere's diameter, or a tube's length.
 class AreaLightReader {
 public:
     AreaLightReader(Document& document, std::size_t index)

@@ -40,7 +40,8 @@ const char* to_text(LightKind kind);
 /// - 3 000: panel in an office
 /// - 10 000: fluorescent tube
 /// - 100 000: frosted bulb
-/// A small source of A square metres and L nits is as bright from the front as a point light of A * L candela.
+///
+/// A small source of A square metres and L nits is, from its front, as bright as A * L candela.
 struct Light {
     /// Kind of light: the fields below state for which kinds they count.
     LightKind kind = LightKind::point;
@@ -57,8 +58,8 @@ struct Light {
     /// Half angle at which a spot's light ends, radians, above 0, at most pi/2. Narrower cones have finer shadows.
     float outer_cone_rad = 0.785398163f;
     /// Radius of a spot's or point's source, metres, 0 to kMostSourceRadius_m. 0: a point, with hard shadows. Read by
-    /// the filters pcss, pcss_moments and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5. Of a disc, sphere or tube
-    /// it is the radius of what shines: with 0, or beyond the range, such a light is left out and reported as dropped.
+    /// the filters pcss, pcss_moments and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5. What shines of a disc,
+    /// sphere or tube has this radius. Without one, such a light is left out and reported as dropped.
     float source_radius_m = 0.0f;
     /// Angular radius of a sun's disk, radians, 0 to kMostSunRadius_rad. 0: a point. Read by the same filters. The
     /// real sun: 0.00465; a thin cloud before it: 0.05.

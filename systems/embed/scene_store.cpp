@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/math/finite.h"
-#include "engine/math/projection.h"
+#include "systems/embed/light_orientation.h"
 #include "systems/embed/mesh_of.h"
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/light_facts.h"
@@ -28,25 +28,6 @@ ecs::Entity entity_of(Id id) {
     return {id.index, id.version};
 }
 
-/// Returns a rotation that looks along `direction`. Empty: it has none.
-std::optional<glm::dmat3> looking_along(const glm::dvec3& direction) {
-    const double size = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    if (!math::is_finite(direction) || !(size > 0.0)) return std::nullopt;
-    return math::basis_from_back(-glm::normalize(direction / size));
-}
-
-/// Returns a rotation that looks along `direction`, turned about it so that its X axis follows `right`. Empty: it has no
-/// direction.
-std::optional<glm::dmat3> orientation_of(const LightDesc& desc) {
-    std::optional<glm::dmat3> found = looking_along(desc.direction);
-    if (!found || !math::is_finite(desc.right)) return found;
-    const glm::dvec3 back = (*found)[2], across = desc.right - back * glm::dot(desc.right, back);
-    const double length = glm::length(across);
-    constexpr double kLeastShare = 1.0e-9;  // below it rounding alone would choose the way
-    if (!(length > kLeastShare * glm::length(desc.right))) return found;
-    return glm::dmat3(across / length, glm::cross(back, across / length), back);
-}
-
 /// Writes a field. Returns true if its value changed, NaN included.
 template <class T>
 bool put_field(T& field, const T& value) {
@@ -63,7 +44,7 @@ bool can_shine(const LightDesc& desc, DropReason& fault) {
     if (!math::is_finite(desc.position_m)) return false;
     fault = DropReason::zero_rotation;
     const LightFacts& facts = light_facts(desc.light.kind);
-    return !facts.aimed() || looking_along(desc.direction).has_value();
+    return !facts.aimed() || orientation_of(desc).has_value();
 }
 
 /// Writes all but the name. Sets shape_version to `version` if that differs. Returns true if anything does.
@@ -348,7 +329,8 @@ void SceneStore::list_lights() {
         light.item = static_cast<std::uint32_t>(snapshot_.lights.size());
         const auto was = std::find_if(before.begin(), before.end(),
                                       [&](const LightItem& item) { return item.entity == entity_of(id); });
-        snapshot_.lights.push_back(was != before.end() ? std::move(*was) : LightItem{.entity = entity_of(id)});
+        snapshot_.lights.push_back(was != before.end() ? std::move(*was) : LightItem{});
+        snapshot_.lights.back().entity = entity_of(id);
         snapshot_.lights.back().name = light.desc.name.empty() ? "light" + std::to_string(id.index) : light.desc.name;
     });
     make_names_unique(snapshot_.lights);

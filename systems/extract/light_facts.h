@@ -24,9 +24,9 @@ struct LightFacts {
     bool half_space = false;  // it shines from one side of its plane, along -back
     double flux_share = 1.0;  // flux of a small source, by that of a point as bright as its brightest side
 
-    /// Its source is a surface with an intensity in nits, seen from all places alike.
+    /// Returns true if its source is a surface, with an intensity in nits.
     constexpr bool area() const { return shape != SourceShape::facing; }
-    /// The light's direction counts.
+    /// Returns true if the light's direction counts.
     constexpr bool aimed() const { return parallel || cone || (area() && shape != SourceShape::sphere); }
 };
 
@@ -61,11 +61,10 @@ inline glm::dvec3 to_light(const LightItem& light, const glm::dvec3& place_ws_m)
     return light_facts(light.kind).parallel ? light.rotation_ws[2] : light.position_ws_m - place_ws_m;
 }
 
-/// Returns the area that an area light shows where it shows most, square metres. 1 for other lights, whose intensity has
-/// no area.
+/// Returns the area that an area light shows where it shows most, square metres. 1 for other lights.
 double shown_area_m2(const LightItem& light);
 
-/// Returns the size of the light's source: radians of parallel rays, else metres. Of an area light it is the distance of
+/// Returns the size of the light's source: radians of parallel rays, else metres. An area light's is the distance of
 /// its farthest place from its middle.
 float source_extent(const LightItem& light);
 

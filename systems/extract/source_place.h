@@ -13,13 +13,13 @@ struct SourcePlace {
     double weight = 0.0;    // share of the light that falls across the way to it; 0: it cannot be seen from there
 };
 
-/// Share of the way to a source at which a ray ends: what lies in the source's own plane, as a ceiling with a panel, is
-/// not in its way.
+/// Share of the way to a source at which a ray ends. A ceiling that lies in the plane of its panel is not in the panel's
+/// way.
 inline constexpr double kBeforeSource = 1.0 - 0x1p-20;
 
-/// Maps a place of the square from -1 to 1 onto a rectangle or a tube, or one of the unit disk onto a disc or a sphere.
-/// The integral of weight times the receiver's cosine, with equal areas of the square or disk counted alike, is
-/// proportional to what the light gives the receiver. Not for SourceShape::facing.
+/// Maps a place of the square from -1 to 1 onto a rectangle or tube, or of the unit disk onto a disc or sphere.
+/// What the light gives a receiver is proportional to the mean of weight times the receiver's cosine, over equal areas.
+/// SourceShape::facing has no places.
 /// - Sphere: places are spread evenly over the directions in which it is seen.
 /// - Tube: they are spread over the length and over the arc that is seen.
 SourcePlace source_place(const LightItem& light, const glm::dvec3& to_middle_m, const glm::dvec2& at);

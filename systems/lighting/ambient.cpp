@@ -52,7 +52,7 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
     glm::dvec3 bounce_lux(0.0);
     for (const LightItem& light : scene.lights) {
         const LightFacts& facts = light_facts(light.kind);
-        const double area_m2 = shown_area_m2(light);  // of an area light: its power is that of its brightest side
+        const double area_m2 = shown_area_m2(light);  // an area light's power is that of its brightest side
         const glm::dvec3 power = glm::dvec3(light.colour) * (static_cast<double>(light.intensity) * area_m2);
         const double strongest = std::max({power.r, power.g, power.b});
         if (facts.parallel) {

@@ -36,7 +36,7 @@ struct LightQueries::Worker {
     rays::RayPacket rays;
     rays::PerLane<std::uint32_t> place_of_lane{};
     rays::PerLane<double> weight_of_lane{};
-    std::vector<double> weights;  // of an area light: sum over a place's rays
+    std::vector<double> weights;  // sums over a place's rays, for area lights
     std::uint32_t hint = 0;
 
     void answer(const Batch& batch, std::size_t first, std::size_t count) {

@@ -12,7 +12,7 @@ namespace gnomon::visibility {
 /// Ray from a place to the light, which it reaches at t = LightRays::last().
 struct LightRay {
     glm::dvec3 from_ws_m{0.0}, along{0.0};
-    double weight = 1.0;  // of an area light: share of its light that comes this way; 0: none does
+    double weight = 1.0;  // share of an area light's that comes this way; 0: none does
 };
 
 /// Result for a sample of a place: no light, all light, or a ray must decide.
@@ -21,8 +21,8 @@ enum class Reach { none, all, ray };
 /// Fills in `count` places with equal shares of the unit disk; does nothing if they are present.
 void fill_disk(std::size_t count, std::vector<glm::dvec2>& disk);
 
-/// Rays from places to one light. The light's size is a disk that faces the place, as in the filters for soft shadows;
-/// of an area light it is its surface (source_place.h).
+/// Rays from places to one light. The light's size is a disk that faces the place, as in the filters for soft shadows.
+/// Area lights have a surface instead (source_place.h).
 /// The place's size is the half of its sphere that faces the light.
 class LightRays {
 public:

@@ -13,7 +13,7 @@ constexpr LightKind kKinds[] = {LightKind::rectangle, LightKind::disc, LightKind
 
 class AreaLights : public TracedFrameTest {
 protected:
-    /// A ground, a box and a thin post on it, and a light half a metre to two metres wide above them.
+    /// Builds a ground with a box and a thin post, below a light of half a metre to a metre and a half.
     void build(LightKind kind, const LightShadow& shadow, const ShadowTuning& tuning = {}, bool casters = true) {
         start_anew();
         place(add_mesh(game::make_box({-4.0, -0.1, -4.0}, {4.0, 0.0, 4.0})));

@@ -1,6 +1,5 @@
 #include "tests/system/test_world.h"
 
-#include "systems/extract/light_facts.h"
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,6 +8,7 @@
 #include "engine/math/aabb.h"
 #include "engine/mesh/mesh_topology.h"
 #include "gnomon/components.h"
+#include "systems/extract/light_facts.h"
 
 namespace gnomon {
 namespace {

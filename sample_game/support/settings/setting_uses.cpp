@@ -21,11 +21,10 @@ bool for_sun(Settings, LightKind kind) { return is_sun(kind); }
 bool for_point(Settings, LightKind kind) { return is_point(kind); }
 
 bool for_source(Settings s, LightKind) { return row_of(s).extent == FilterExtent::source; }
-bool for_width(Settings, LightKind kind) { return kind == LightKind::rectangle || kind == LightKind::tube; }
-bool for_height(Settings, LightKind kind) { return kind == LightKind::rectangle; }
-bool has_radius(LightKind kind) { return kind == LightKind::disc || kind == LightKind::sphere || kind == LightKind::tube; }
+bool for_width(Settings, LightKind kind) { return has_width(kind); }
+bool for_height(Settings, LightKind kind) { return has_height(kind); }
 bool for_lamp_source(Settings s, LightKind kind) {
-    return has_radius(kind) || (for_source(s, kind) && !for_sun(s, kind) && !for_height(s, kind));
+    return has_radius(kind) || (for_source(s, kind) && !for_sun(s, kind) && !has_height(kind));
 }
 bool for_sun_source(Settings s, LightKind kind) { return for_source(s, kind) && for_sun(s, kind); }
 

@@ -18,7 +18,7 @@ struct ClippedOutline {
 // Lobes of a roughness and angle: FittedLobe of bench/area_table/lobe_fit.h.
 struct AreaLobes {
     vec4 reflected, grazing;   // lean, along, across, skew
-    vec2 size;                 // of each
+    vec2 size;                 // integrals of both
 };
 
 // Returns where an edge meets the plane z = 0.

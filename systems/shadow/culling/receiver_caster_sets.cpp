@@ -165,7 +165,7 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, con
     return std::max(highest_m, 0.0) * static_cast<double>(filter.sun_radius_tan);
 }
 
-/// Marks the casters of an area light that touch the box around its source and all receivers: every way from one to the
+/// Marks the casters of an area light that touch the box around its source and all receivers. Every way from one to the
 /// other lies in it.
 void mark_around_source(const SceneSnapshot& scene, const LightItem& light, std::span<const glm::dvec3> points_ws,
                         IndexSet& marks) {

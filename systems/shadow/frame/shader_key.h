@@ -22,7 +22,7 @@ struct ShaderKey {
     bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
     bool antialias = false;    // visibility is a share of the pixel's area: AreaShares::marked
     bool spread = false;       // taps and rays of a source begin all over the pixel's area: AreaShares::spread
-    bool whole_source = false;  // of an area light, the filter sees all of the source; others see its middle alone
+    bool whole_source = false;  // the filter sees all of an area light; others see its middle alone
     bool operator==(const ShaderKey&) const = default;
 };
 

@@ -31,7 +31,7 @@ private:
     std::optional<double> range_m_;
     math::Aabb around_;
     std::optional<std::array<math::Plane, math::kConeSides + 1>> cone_;
-    std::optional<math::Plane> side_;  // of a light that shines from one side of its plane
+    std::optional<math::Plane> side_;  // where the light shines from one side of its plane
 };
 
 }  // namespace gnomon::shadow

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 constexpr int kSide = 200;
 
-/// An area light above the origin that shines down on it.
+/// Returns an area light that shines along -Z.
 LightItem light_of(LightKind kind) {
     LightItem light;
     light.kind = kind;
@@ -27,7 +27,7 @@ LightItem light_of(LightKind kind) {
     return light;
 }
 
-/// Integral of weight times cosine over the source's parameters, each counted by `measure`.
+/// Integrates weight times cosine over the source's places, each counted by `measure`.
 double received(const LightItem& light, const glm::dvec3& to_middle_m, const glm::dvec3& normal, double measure) {
     const bool round = light.kind == LightKind::disc || light.kind == LightKind::sphere;
     double sum = 0.0;

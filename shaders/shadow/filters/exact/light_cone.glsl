@@ -3,7 +3,7 @@
 const float kMostStretch = 2.5;   // C++ twin: systems/shadow/request/occluder_pyramid.h
 struct SourceCone {
     bool is_known;
-    float radius_m;       // of a lamp's source as a disk that faces the place
+    float radius_m;       // size of a lamp's source as a disk that faces the place
     float texels;         // most of its radius per unit of depth
     float stretch;        // how much longer the way is than its part along the view's axis
     float steepest;       // see ends_of_texel()

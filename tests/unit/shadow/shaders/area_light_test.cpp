@@ -85,7 +85,7 @@ Shader shader_of(const Case& c) {
     return shader;
 }
 
-/// What the shader gives, and the same in samples of the surface's lobe or of the source.
+/// Returns what the shader gives.
 template <class Shader>
 glm::dvec3 shaded(const Case& c) {
     Shader shader = shader_of<Shader>(c);
@@ -127,7 +127,7 @@ bool meets(const Case& c, const glm::dvec3& way) {
     return std::abs(at.x) < 0.5 * c.light.width_m && std::abs(at.y) < 0.5 * c.light.height_m;
 }
 
-/// Area of which source_place()'s weights count a share each; of a sphere, the angle around it.
+/// Returns the area that the weights of source_place() share; of a sphere, the angle around it.
 double measure(const Case& c) {
     const double radius_m = c.light.source_radius_m, width_m = c.light.width_m;
     if (c.light.kind == LightKind::rectangle) return width_m * c.light.height_m;
@@ -154,7 +154,7 @@ void for_each_place(Add add) {
         for (int x = 0; x < kSide; ++x) add(glm::dvec2(x + 0.5, y + 0.5) / static_cast<double>(kSide));
 }
 
-/// The scattered part: places of the source.
+/// Returns the scattered part, by places of the source.
 glm::dvec3 scattered(const Case& c) {
     const bool round = c.light.kind == LightKind::disc || c.light.kind == LightKind::sphere;
     glm::dvec3 sum(0.0);
@@ -171,7 +171,7 @@ glm::dvec3 scattered(const Case& c) {
     return sum * (measure(c) / (kSide * kSide));
 }
 
-/// The mirrored part: visible normals (Heitz 2018), of which the surface's lobe is a smooth function.
+/// Returns the mirrored part, by visible normals (Heitz 2018).
 glm::dvec3 mirrored(const Case& c) {
     const double alpha = std::max(c.roughness * c.roughness, 1e-3), a2 = alpha * alpha;
     const glm::dvec3 v = c.to_viewer, f0 = glm::mix(glm::dvec3(0.04), c.colour, c.metallic);
@@ -234,8 +234,8 @@ std::vector<Case> all_cases(LightKind kind, double metallic) {
     return cases;
 }
 
-/// Mean error, by the mean of the truth; and the 99th percentile of errors by their own truth, among cases that are at
-/// least a tenth as bright as the mean.
+/// Mean error, by the mean of the truth. The 99th percentile is of errors by their own truth, among cases at least a
+/// tenth as bright as the mean.
 struct Errors {
     double mean = 0.0, p99 = 0.0;
 };
