@@ -22,7 +22,7 @@ struct Places {
     std::uint32_t all = 0, seen = 0, lit = 0;  // all places; those on the seen surface; the lit ones of these
     std::uint32_t behind = 0;                  // seen ones, for places of the source behind the surface
     std::uint32_t rays() const { return seen - behind; }
-    double light = 0.0, lit_light = 0.0;       // sums of the rays' weights, 1 but for places of area lights
+    double light = 0.0, lit_light = 0.0;       // sums of the rays' weights, 1 except for places of area lights
     bool faces = true;                         // false: the light does not reach or face some place
     bool mixed() const { return !faces || seen < all || (lit > 0 && lit < rays()); }
     bool is_lit() const { return lit > 0; }

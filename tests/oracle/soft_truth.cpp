@@ -31,7 +31,7 @@ glm::dvec2 random_place(std::uint64_t seed) {
     return {static_cast<double>(bits & 0xffffffffULL) * kUnit, static_cast<double>(bits >> 32) * kUnit};
 }
 
-/// What a pixel's rays found: sums of their weights, which are 1 but for area lights.
+/// What a pixel's rays found: sums of their weights, which are 1 except for area lights.
 struct Sum {
     double lit = 0.0, rays = 0.0;  // of those that leave the surface
     bool all_lit() const { return lit == rays; }

@@ -6,20 +6,52 @@
 layout(std430, binding = kAreaTableBuffer) readonly buffer AreaTable { vec4 area_lobes[]; };
 
 const int kLobesAcross = 32;      // C++ twin: bench/area_table/lobe_fit.h
-const int kMostClipped = 20;      // a plane cuts an outline at most four times: a tube's may be hollow
 const float kSmallOutline = 0.02; // share of its distance up to which an outline counts as a small flat one
-
-// What a vector of a cosine's integral over an outline is: along it, the integral of the cosine over pi.
-struct ClippedOutline {
-    vec3 corners[kMostClipped];
-    int count;
-};
 
 // Lobes of a roughness and angle: FittedLobe of bench/area_table/lobe_fit.h.
 struct AreaLobes {
     vec4 reflected, grazing;   // lean, along, across, skew
     vec2 size;                 // integrals of both
 };
+
+// Sums over the corners of an outline, one after the other. `sum` is the integral's vector: along it, the integral of the
+// cosine over pi. `area` and `middle` are for outlines so small that the sum's parts cancel each other.
+struct OutlineSum {
+    vec3 first, first_unit, last, last_unit;
+    vec3 sum, area, middle;
+    float widest, count;
+};
+
+OutlineSum no_corners() {
+    OutlineSum s;
+    s.first = s.first_unit = s.last = s.last_unit = s.sum = s.area = s.middle = vec3(0.0);
+    s.widest = s.count = 0.0;
+    return s;
+}
+
+// Returns an edge's part of the integral: the angle between two unit vectors by its sine and a turn, times their cross
+// product. The quotient is the rational function of Heitz and Hill 2017, within 2e-6 of it.
+vec3 edge_integral(vec3 a, vec3 b) {
+    float cosine = dot(a, b), y = abs(cosine);
+    float quotient = (0.8543985 + (0.4965155 + 0.0145206 * y) * y) / (3.4175940 + (4.1616724 + y) * y);
+    float beyond = 0.5 / sqrt(max(1.0 - cosine * cosine, 1e-7)) - quotient;
+    return cross(a, b) * (cosine > 0.0 ? quotient : beyond);
+}
+
+OutlineSum with_corner(OutlineSum s, vec3 corner) {
+    vec3 unit = corner / max(length(corner), 1e-30);
+    bool is_first = s.count == 0.0;
+    s.first = is_first ? corner : s.first;
+    s.first_unit = is_first ? unit : s.first_unit;
+    s.sum += is_first ? vec3(0.0) : edge_integral(s.last_unit, unit);
+    s.area += is_first ? vec3(0.0) : cross(s.last - s.first, corner - s.first);
+    s.middle += corner;
+    s.widest = max(s.widest, length(corner - s.first));
+    s.last = corner;
+    s.last_unit = unit;
+    s.count += 1.0;
+    return s;
+}
 
 // Returns where an edge meets the plane z = 0.
 vec3 at_horizon(vec3 from, vec3 to) {
@@ -28,83 +60,79 @@ vec3 at_horizon(vec3 from, vec3 to) {
     return at;
 }
 
-ClippedOutline with_corner(ClippedOutline outline, vec3 corner) {
-    outline.corners[outline.count] = corner;
-    outline.count = min(outline.count + 1, kMostClipped - 1);
-    return outline;
+// Adds what an edge has above the horizon but its begin (Sutherland and Hodgman 1974). It is a loop, because software
+// devices run both sides of an `if`.
+OutlineSum with_edge(OutlineSum s, vec3 from, vec3 to) {
+    for (int crossings = (from.z > 0.0) != (to.z > 0.0) ? 1 : 0; crossings > 0; --crossings)
+        s = with_corner(s, at_horizon(from, to));
+    if (to.z > 0.0) s = with_corner(s, to);
+    return s;
 }
 
-// Adds an edge's end, and where the edge crosses the horizon (Sutherland and Hodgman 1974).
-ClippedOutline with_edge(ClippedOutline outline, vec3 from, vec3 to) {
-    if ((from.z > 0.0) != (to.z > 0.0)) outline = with_corner(outline, at_horizon(from, to));
-    if (to.z > 0.0) outline = with_corner(outline, to);
-    return outline;
-}
-
-// Returns the angle between two unit vectors by its sine, times their cross product.
-vec3 edge_integral(vec3 a, vec3 b) {
-    vec3 normal = cross(a, b);
-    float cosine = dot(a, b), sine = length(normal);
-    float small = 1.0 + sine * sine * (0.1666666667 + sine * sine * 0.075);   // asin(s) / s
-    float angle = atan(sine, cosine);
-    return normal * (cosine > 0.0 && sine < 0.1 ? small : angle / max(sine, 1e-30));
-}
-
-// Returns the integral's vector of an outline above the horizon, that starts anywhere and runs either way.
-vec3 outline_integral(ClippedOutline outline) {
-    vec3 first = outline.corners[0], sum = vec3(0.0), area = vec3(0.0), middle = vec3(0.0);
-    float widest = 0.0;
-    for (int i = 0; i < outline.count; ++i) {
-        vec3 a = outline.corners[i], b = outline.corners[i + 1 < outline.count ? i + 1 : 0];
-        sum += edge_integral(normalize(a), normalize(b));
-        area += cross(a - first, b - first);
-        middle += a;
-        widest = max(widest, length(a - first));
-    }
-    if (outline.count < 3) return vec3(0.0);
-    middle = middle / float(outline.count);
+// Returns the integral's vector, with z above 0.
+vec3 outline_integral(OutlineSum s) {
+    const float kInverseTwoPi = 0.159154943;
+    vec3 sum = s.sum + edge_integral(s.last_unit, s.first_unit);
+    vec3 middle = s.middle / max(s.count, 1.0);
     float distance = max(length(middle), 1e-30);
-    const float kInversePi = 0.318309886, kPerTurn = 0.159154943;
-    if (widest < kSmallOutline * distance) {
-        vec3 toward = middle / distance;
-        return toward * (abs(dot(area / distance, toward)) * 0.5 * kInversePi / distance);
-    }
-    return sum * (sum.z < 0.0 ? -kPerTurn : kPerTurn);
+    vec3 toward = middle / distance;
+    vec3 small = toward * (abs(dot(s.area / distance, toward)) * kInverseTwoPi / distance);
+    vec3 found = s.widest < kSmallOutline * distance ? small : (sum.z < 0.0 ? -sum : sum);
+    return s.count < 3.0 ? vec3(0.0) : found;
 }
 
-ClippedOutline no_outline() {
-    ClippedOutline outline;
-    outline.count = 0;
-    return outline;
+// A lobe as the way to its cosine's own space.
+struct LobeSpace {
+    float s, c;          // sine and cosine of its turn from the normal
+    vec3 by_stretch;     // 1 / width along and across, and the skew
+};
+
+LobeSpace lobe_space(vec4 lobe, float alpha, float n_v) {
+    float turn_rad = alpha * lobe.x - acos(n_v);
+    LobeSpace space;
+    space.s = sin(turn_rad);
+    space.c = cos(turn_rad);
+    space.by_stretch = vec3(1.0 / (alpha * lobe.y), 1.0 / (alpha * lobe.z), alpha * lobe.w);
+    return space;
 }
 
-// Returns the part of the source above the surface, in the axes of `frame`.
-ClippedOutline source_outline(AreaSource source, mat3 frame) {
-    ClippedOutline outline = no_outline();
+vec3 in_lobe(LobeSpace space, vec3 p) {
+    float ahead = space.c * p.z - space.s * p.x;
+    float across = space.c * p.x + space.s * p.z - space.by_stretch.z * ahead;
+    return vec3(across * space.by_stretch.x, p.y * space.by_stretch.y, ahead);
+}
+
+// Sums of the part of a source above the surface: as it is, and in a lobe's space.
+struct SourceSums {
+    OutlineSum falls, mirrored;
+    vec3 first, last;    // in the lobe's space, below its horizon too
+};
+
+SourceSums with_both(SourceSums s, LobeSpace space, vec3 corner) {
+    vec3 mirrored = in_lobe(space, corner);
+    bool is_first = s.falls.count == 0.0;
+    s.falls = with_corner(s.falls, corner);
+    s.first = is_first ? mirrored : s.first;
+    if (!is_first) s.mirrored = with_edge(s.mirrored, s.last, mirrored);
+    s.last = mirrored;
+    return s;
+}
+
+SourceSums source_sums(AreaSource source, mat3 frame, LobeSpace space) {
+    SourceSums s;
+    s.falls = s.mirrored = no_corners();
+    s.first = s.last = vec3(0.0);
     int count = outline_corners();
     vec3 from = outline_corner(source, count - 1) * frame;
     for (int i = 0; i < count; ++i) {
         vec3 to = outline_corner(source, i) * frame;
-        outline = with_edge(outline, from, to);
+        for (int crossings = (from.z > 0.0) != (to.z > 0.0) ? 1 : 0; crossings > 0; --crossings)
+            s = with_both(s, space, at_horizon(from, to));
+        if (to.z > 0.0) s = with_both(s, space, to);
         from = to;
     }
-    return outline;
-}
-
-// Returns the outline in the cosine's own space.
-ClippedOutline transformed_outline(ClippedOutline outline, vec4 lobe, float alpha, float n_v) {
-    ClippedOutline out_of = no_outline();
-    float turn_rad = alpha * lobe.x - acos(n_v), s = sin(turn_rad), c = cos(turn_rad);
-    vec3 from = vec3(0.0);
-    for (int i = -1; i < outline.count; ++i) {
-        vec3 p = outline.corners[i < 0 ? max(outline.count - 1, 0) : i];
-        float ahead = c * p.z - s * p.x;
-        float across = (c * p.x + s * p.z - alpha * lobe.w * ahead) / (alpha * lobe.y);
-        vec3 to = vec3(across, p.y / (alpha * lobe.z), ahead);
-        if (i >= 0) out_of = with_edge(out_of, from, to);
-        from = to;
-    }
-    return out_of;
+    s.mirrored = with_edge(s.mirrored, s.last, s.first);
+    return s;
 }
 
 AreaLobes area_lobes_of(float roughness, float cosine) {
@@ -135,25 +163,35 @@ mat3 lobe_frame(vec3 n, vec3 v) {
 }
 
 // Returns the integral of the cosine over the source above the surface, over pi.
-float area_received(AreaSource source, vec3 n) { return outline_integral(source_outline(source, axes_around(n))).z; }
+float area_received(AreaSource source, vec3 n) {
+    mat3 frame = axes_around(n);
+    OutlineSum s = no_corners();
+    int count = outline_corners();
+    vec3 from = outline_corner(source, count - 1) * frame;
+    for (int i = 0; i < count; ++i) {
+        vec3 to = outline_corner(source, i) * frame;
+        s = with_edge(s, from, to);
+        from = to;
+    }
+    return outline_integral(s).z;
+}
 
 // Returns the radiance that a surface reflects of a source with a luminance of 1: the integral of
 // brdf_times_cosine() of brdf.glsl.
 vec3 area_reflected(AreaSource source, vec3 colour, float metallic, float roughness, vec3 n, vec3 v) {
     float n_v = clamp(abs(dot(n, v)), 1e-4, 1.0);
-    mat3 frame = lobe_frame(n, v);
-    ClippedOutline outline = source_outline(source, frame);
-    vec3 falls = outline_integral(outline);
-    AreaLobes lobes = area_lobes_of(roughness, n_v);
     float alpha = max(roughness * roughness, 1e-3);
+    AreaLobes lobes = area_lobes_of(roughness, n_v);
     vec3 f0 = mix(vec3(0.04), colour, metallic);
-    float f0_mean = (f0.x + f0.y + f0.z) / 3.0, added = (1.0 - f0_mean) * lobes.size.y;
     // One lobe stands for both parts, by their shares.
+    float f0_mean = (f0.x + f0.y + f0.z) / 3.0, added = (1.0 - f0_mean) * lobes.size.y;
     vec4 lobe = mix(lobes.reflected, lobes.grazing, added / max(added + f0_mean * lobes.size.x, 1e-30));
-    float mirrored = outline_integral(transformed_outline(outline, lobe, alpha, n_v)).z;
+    mat3 frame = lobe_frame(n, v);
+    SourceSums sums = source_sums(source, frame, lobe_space(lobe, alpha, n_v));
+    vec3 falls = outline_integral(sums.falls);
     // What a surface does not mirror it scatters: taken for the middle of what falls on it.
     float v_l = dot(v * frame, falls) / max(length(falls), 1e-30);
     vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - sqrt(clamp(0.5 + 0.5 * v_l, 0.0, 1.0)), 5.0);
     vec3 scattered = (1.0 - fresnel) * (1.0 - metallic) * colour * falls.z;
-    return scattered + (f0 * lobes.size.x + (1.0 - f0) * lobes.size.y) * mirrored;
+    return scattered + (f0 * lobes.size.x + (1.0 - f0) * lobes.size.y) * outline_integral(sums.mirrored).z;
 }
