@@ -6,6 +6,7 @@
 layout(std430, binding = kAreaTableBuffer) readonly buffer AreaTable { vec4 area_lobes[]; };
 
 const int kLobesAcross = 32;      // C++ twin: bench/area_table/lobe_fit.h
+const int kMostClipped = 24;      // planes cut an outline twice; a tube's may be hollow, and is then cut four times
 const float kSmallOutline = 0.02; // share of its distance up to which an outline counts as a small flat one
 
 // Lobes of a roughness and angle: FittedLobe of bench/area_table/lobe_fit.h.
@@ -60,16 +61,26 @@ vec3 at_horizon(vec3 from, vec3 to) {
     return at;
 }
 
-// Adds what an edge has above the horizon but its begin (Sutherland and Hodgman 1974). It is a loop, because software
-// devices run both sides of an `if`.
-OutlineSum with_edge(OutlineSum s, vec3 from, vec3 to) {
-    for (int crossings = (from.z > 0.0) != (to.z > 0.0) ? 1 : 0; crossings > 0; --crossings)
-        s = with_corner(s, at_horizon(from, to));
-    if (to.z > 0.0) s = with_corner(s, to);
-    return s;
+// Corners of an outline above the horizon.
+struct ClippedOutline {
+    vec3 corners[kMostClipped];
+    int count;
+};
+
+// Adds an edge's end, and before it where the edge crosses the horizon (Sutherland and Hodgman 1974).
+ClippedOutline with_edge(ClippedOutline outline, vec3 from, vec3 to) {
+    if ((from.z > 0.0) != (to.z > 0.0)) {
+        outline.corners[outline.count] = at_horizon(from, to);
+        ++outline.count;
+    }
+    if (to.z > 0.0) {
+        outline.corners[outline.count] = to;
+        ++outline.count;
+    }
+    return outline;
 }
 
-// Returns the integral's vector, with z above 0.
+// Returns the integral's vector, with z above 0, as it is of outlines above the horizon.
 vec3 outline_integral(OutlineSum s) {
     const float kInverseTwoPi = 0.159154943;
     vec3 sum = s.sum + edge_integral(s.last_unit, s.first_unit);
@@ -102,37 +113,61 @@ vec3 in_lobe(LobeSpace space, vec3 p) {
     return vec3(across * space.by_stretch.x, p.y * space.by_stretch.y, ahead);
 }
 
-// Sums of the part of a source above the surface: as it is, and in a lobe's space.
-struct SourceSums {
-    OutlineSum falls, mirrored;
-    vec3 first, last;    // in the lobe's space, below its horizon too
+// What a source gives: integrals' vectors of its outline as it is, and in a lobe's space.
+struct SourceLight {
+    vec3 falls, mirrored;
+    bool is_cut;   // the horizon of one of both cuts the outline
 };
 
-SourceSums with_both(SourceSums s, LobeSpace space, vec3 corner) {
-    vec3 mirrored = in_lobe(space, corner);
-    bool is_first = s.falls.count == 0.0;
-    s.falls = with_corner(s.falls, corner);
-    s.first = is_first ? mirrored : s.first;
-    if (!is_first) s.mirrored = with_edge(s.mirrored, s.last, mirrored);
-    s.last = mirrored;
-    return s;
+// Returns it without regard to horizons.
+SourceLight light_of_all(AreaSource source, mat3 frame, LobeSpace space) {
+    OutlineSum falls = no_corners(), mirrored = no_corners();
+    vec2 lowest = vec2(1.0), highest = vec2(-1.0);
+    for (int i = 0; i < outline_corners(source); ++i) {
+        vec3 corner = outline_corner(source, i) * frame, in_space = in_lobe(space, corner);
+        falls = with_corner(falls, corner);
+        mirrored = with_corner(mirrored, in_space);
+        lowest = min(lowest, vec2(corner.z, in_space.z));
+        highest = max(highest, vec2(corner.z, in_space.z));
+    }
+    SourceLight found;
+    found.falls = highest.x > 0.0 ? outline_integral(falls) : vec3(0.0);
+    found.mirrored = highest.x > 0.0 && highest.y > 0.0 ? outline_integral(mirrored) : vec3(0.0);
+    found.is_cut = highest.x > 0.0 && (lowest.x <= 0.0 || (lowest.y <= 0.0 && highest.y > 0.0));
+    return found;
 }
 
-SourceSums source_sums(AreaSource source, mat3 frame, LobeSpace space) {
-    SourceSums s;
-    s.falls = s.mirrored = no_corners();
-    s.first = s.last = vec3(0.0);
-    int count = outline_corners();
-    vec3 from = outline_corner(source, count - 1) * frame;
-    for (int i = 0; i < count; ++i) {
+// Returns it of the part above the surface, and of that part's own above the lobe's horizon.
+SourceLight light_of_cut(AreaSource source, mat3 frame, LobeSpace space) {
+    ClippedOutline outline, lobe_outline;
+    outline.count = lobe_outline.count = 0;
+    vec3 from = outline_corner(source, outline_corners(source) - 1) * frame;
+    for (int i = 0; i < outline_corners(source); ++i) {
         vec3 to = outline_corner(source, i) * frame;
-        for (int crossings = (from.z > 0.0) != (to.z > 0.0) ? 1 : 0; crossings > 0; --crossings)
-            s = with_both(s, space, at_horizon(from, to));
-        if (to.z > 0.0) s = with_both(s, space, to);
+        outline = with_edge(outline, from, to);
         from = to;
     }
-    s.mirrored = with_edge(s.mirrored, s.last, s.first);
-    return s;
+    OutlineSum falls = no_corners(), mirrored = no_corners();
+    from = in_lobe(space, outline.corners[max(outline.count - 1, 0)]);
+    for (int i = 0; i < outline.count; ++i) {
+        vec3 to = in_lobe(space, outline.corners[i]);
+        lobe_outline = with_edge(lobe_outline, from, to);
+        falls = with_corner(falls, outline.corners[i]);
+        from = to;
+    }
+    for (int i = 0; i < lobe_outline.count; ++i) mirrored = with_corner(mirrored, lobe_outline.corners[i]);
+    SourceLight found;
+    found.falls = outline_integral(falls);
+    found.mirrored = outline_integral(mirrored);
+    found.is_cut = false;
+    return found;
+}
+
+// Returns what the source gives. It is a loop, because software devices run what is in an `if` for every pixel.
+SourceLight source_light(AreaSource source, mat3 frame, LobeSpace space) {
+    SourceLight found = light_of_all(source, frame, space);
+    while (found.is_cut) found = light_of_cut(source, frame, space);
+    return found;
 }
 
 AreaLobes area_lobes_of(float roughness, float cosine) {
@@ -164,16 +199,11 @@ mat3 lobe_frame(vec3 n, vec3 v) {
 
 // Returns the integral of the cosine over the source above the surface, over pi.
 float area_received(AreaSource source, vec3 n) {
-    mat3 frame = axes_around(n);
-    OutlineSum s = no_corners();
-    int count = outline_corners();
-    vec3 from = outline_corner(source, count - 1) * frame;
-    for (int i = 0; i < count; ++i) {
-        vec3 to = outline_corner(source, i) * frame;
-        s = with_edge(s, from, to);
-        from = to;
-    }
-    return outline_integral(s).z;
+    LobeSpace none;
+    none.s = 0.0;
+    none.c = 1.0;
+    none.by_stretch = vec3(1.0, 1.0, 0.0);
+    return source_light(source, axes_around(n), none).falls.z;
 }
 
 // Returns the radiance that a surface reflects of a source with a luminance of 1: the integral of
@@ -187,11 +217,11 @@ vec3 area_reflected(AreaSource source, vec3 colour, float metallic, float roughn
     float f0_mean = (f0.x + f0.y + f0.z) / 3.0, added = (1.0 - f0_mean) * lobes.size.y;
     vec4 lobe = mix(lobes.reflected, lobes.grazing, added / max(added + f0_mean * lobes.size.x, 1e-30));
     mat3 frame = lobe_frame(n, v);
-    SourceSums sums = source_sums(source, frame, lobe_space(lobe, alpha, n_v));
-    vec3 falls = outline_integral(sums.falls);
+    SourceLight light_found = source_light(source, frame, lobe_space(lobe, alpha, n_v));
+    vec3 falls = light_found.falls;
     // What a surface does not mirror it scatters: taken for the middle of what falls on it.
     float v_l = dot(v * frame, falls) / max(length(falls), 1e-30);
     vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - sqrt(clamp(0.5 + 0.5 * v_l, 0.0, 1.0)), 5.0);
     vec3 scattered = (1.0 - fresnel) * (1.0 - metallic) * colour * falls.z;
-    return scattered + (f0 * lobes.size.x + (1.0 - f0) * lobes.size.y) * outline_integral(sums.mirrored).z;
+    return scattered + (f0 * lobes.size.x + (1.0 - f0) * lobes.size.y) * light_found.mirrored.z;
 }

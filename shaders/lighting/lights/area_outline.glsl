@@ -4,7 +4,11 @@ const int kMostCorners = 16;
 const float kRoundCorners = 16.0;
 const float kRoundOutside = 1.013002;   // sqrt(2 pi / (16 sin(2 pi / 16)))
 
-int outline_corners() { return kShape == kRectangleShape ? 4 : kMostCorners; }
+// Returns the number of corners. It depends on the source: of a constant number compilers make as many copies of a loop.
+int outline_corners(AreaSource source) {
+    int count = kShape == kRectangleShape ? 4 : kMostCorners;
+    return source.half_width_m > 0.0 ? count : 0;
+}
 
 vec3 round_corner(vec3 middle_m, vec3 right_m, vec3 up_m, int i) {
     const float kTurn = 6.283185307;
