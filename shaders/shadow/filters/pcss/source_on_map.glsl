@@ -9,7 +9,7 @@ struct MapSource {
     vec3 first_m, second_m;   // half axes, in the map's u, v and toward the light
     float z_m;                // the receiver's distance along the view's axis
 };
-MapSource map_source;   // as the receiver sees it
+MapSource map_source = MapSource(vec3(0.0), vec3(0.0), 1.0);   // as the receiver sees it
 
 // Returns half axes of the source. A round one is taken as what faces the receiver: a disk of a sphere, a strip of a
 // tube.
