@@ -59,6 +59,24 @@ TEST_F(AreaLights, ByRaysAreWithinTheNoiseOfSixteenOfTheTruth) {
     }
 }
 
+TEST_F(AreaLights, ByRaysLeakNothingAroundLargeSourcesAmongCasters) {
+    // Casters within the ball around the source, and receivers within it: no map is certain there.
+    for (const LightKind kind : kAreaKinds)
+        for (const glm::dvec3& at : {glm::dvec3(-0.2, 1.1, 0.1), glm::dvec3(0.8, 0.5, -0.8)}) {
+            SCOPED_TRACE(to_text(kind));
+            build(kind, {.filter = ShadowFilter::exact_soft, .resolution_px = 256}, {.kernel = {.penumbra_rays = 32}});
+            world.patch<Transform>(light_, [&](Transform& t) { t.translation_m = at; });
+            world.patch<Light>(light_, [](Light& light) { light.width_m = 2.4f, light.height_m = 1.6f; });
+            if (kind == LightKind::disc) world.patch<Light>(light_, [](Light& light) { light.source_radius_m = 0.9f; });
+            draw();
+            const oracle::SoftMetrics m = judge();
+            EXPECT_GT(m.penumbra, 500u);
+            EXPECT_LE(m.penumbra_error, 0.04);
+            EXPECT_LE(m.umbra_leak, 2e-3);
+            EXPECT_LE(m.lit_loss, 2e-3);
+        }
+}
+
 TEST_F(AreaLights, ByTheMapAreAboutAsSoftAsTheTruth) {
     for (const LightKind kind : kAreaKinds) {
         SCOPED_TRACE(to_text(kind));

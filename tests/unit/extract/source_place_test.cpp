@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
-constexpr int kSide = 200;
+constexpr int kPlacesAcross = 200;
 
 /// Returns an area light that shines along -Z.
 LightItem light_of(LightKind kind) {
@@ -31,15 +31,15 @@ LightItem light_of(LightKind kind) {
 double received(const LightItem& light, const glm::dvec3& to_middle_m, const glm::dvec3& normal, double measure) {
     const bool round = light.kind == LightKind::disc || light.kind == LightKind::sphere;
     double sum = 0.0;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const glm::dvec2 square((x + 0.5) / kSide, (y + 0.5) / kSide);
+    for (int y = 0; y < kPlacesAcross; ++y)
+        for (int x = 0; x < kPlacesAcross; ++x) {
+            const glm::dvec2 square((x + 0.5) / kPlacesAcross, (y + 0.5) / kPlacesAcross);
             const glm::dvec2 disk = std::sqrt(square.x) * glm::dvec2(std::cos(2.0 * kPi * square.y), std::sin(2.0 * kPi * square.y));
             const SourcePlace place = source_place(light, to_middle_m, round ? disk : 2.0 * square - 1.0);
             if (place.weight > 0.0)
                 sum += place.weight * std::max(glm::dot(glm::normalize(place.way_m), normal), 0.0);
         }
-    return sum * measure / (kSide * kSide);
+    return sum * measure / (kPlacesAcross * kPlacesAcross);
 }
 
 const glm::dvec3 kUp(0.0, 0.0, 1.0);

@@ -4,4 +4,5 @@ gnomon_tests(NAME unit_shadow LABEL unit LIBRARIES gnomon_oracle SOURCES
   shadow/fitting/accuracy_target_test.cpp shadow/request/filter_choice_test.cpp shadow/fitting/cascade_count_test.cpp shadow/report/draw_times_test.cpp shadow/fitting/light_space_extents_test.cpp shadow/request/filter_settings_test.cpp shadow/shaders/poisson_disk_test.cpp shadow/publish/noise_cell_test.cpp shadow/exact/bounds_items_test.cpp shadow/request/prefilter_settings_test.cpp shadow/fitting/source_fit_test.cpp shadow/update/stale_error_test.cpp shadow/budget/update_scheduler_test.cpp
   shadow/budget/allocate_quality_test.cpp shadow/exact/near_light_clearance_test.cpp shadow/culling/lamp_offsets_test.cpp shadow/publish/visibility_hash_test.cpp shadow/publish/lookup_accuracy_test.cpp shadow/frame/shader_key_test.cpp shadow/frame/fit_history_test.cpp shadow/budget/cost_calibration_test.cpp)
 # area_light_test.cpp, lispsm_bias_test.cpp, manual_bias_test.cpp and prefilter_settings_test.cpp compile the shaders' text as C++.
-target_include_directories(unit_shadow PRIVATE ${PROJECT_SOURCE_DIR}/shaders)
+target_include_directories(unit_shadow PRIVATE
+  ${PROJECT_SOURCE_DIR}/bench/glsl_on_cpu/overrides ${PROJECT_SOURCE_DIR}/shaders)

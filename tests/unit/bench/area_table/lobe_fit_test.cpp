@@ -60,8 +60,10 @@ TEST(LobeTable, ReflectsWhatTheSurfaceDoes) {
             const double fitted = over_hemisphere([&](const glm::dvec3& l) { return fitted_at(lobe, alpha, cosine, l); });
             EXPECT_NEAR(fitted, 1.0, 0.01) << "a density";
             // Its size is by the share of the lobe above the surface, which is at least a half.
-            EXPECT_GE(lobe.size, 0.99 * all) << column << " " << row;
-            EXPECT_LE(lobe.size, 2.02 * all) << column << " " << row;
+            // The grazing part is a tail of the places at which the program takes it, a thousand in all.
+            const double off = part == LobePart::reflected ? 0.01 : 0.03;
+            EXPECT_GE(lobe.size, (1.0 - off) * all) << column << " " << row;
+            EXPECT_LE(lobe.size, 2.0 * (1.0 + off) * all) << column << " " << row;
         }
 }
 
@@ -76,8 +78,10 @@ TEST(LobeTable, HasTheShapeOfTheSurfacesLobe) {
                     return 0.5 * std::abs(lobe_at(part, alpha, cosine, l) / all - fitted_at(with, alpha, cosine, l));
                 });
             };
-            EXPECT_LT(apart(lobe), 0.12) << column << " " << row;
-            if (row > 0) EXPECT_GT(apart(other), apart(lobe)) << "the control: a lobe of another angle";
+            EXPECT_LT(apart(lobe), part == LobePart::reflected ? 0.14 : 0.2) << column << " " << row;
+            if (row > 0) {
+                EXPECT_GT(apart(other), apart(lobe)) << "the control: a lobe of another angle";
+            }
         }
 }
 

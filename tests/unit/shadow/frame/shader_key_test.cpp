@@ -51,9 +51,9 @@ ShaderKey shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl"
 ShaderKey full_row() {
     ShaderKey row = shadowed_row();
     auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
-           masks, footprint, antialias, spread] = row;  // all members: another one does not compile
+           masks, footprint, antialias, spread, whole_source] = row;  // all members: another one does not compile
     for (bool* flag : {&fades, &depths, &manual_bias, &triangles, &sheets, &moments, &rays, &masks, &footprint,
-                       &antialias, &spread})
+                       &antialias, &spread, &whole_source})
         *flag = true;
     return row;
 }
@@ -73,7 +73,7 @@ TEST(ShaderKey, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
     for (bool ShaderKey::*flag : {&ShaderKey::fades, &ShaderKey::depths, &ShaderKey::manual_bias,
                                    &ShaderKey::triangles, &ShaderKey::sheets, &ShaderKey::moments, &ShaderKey::rays,
                                    &ShaderKey::ray_masks, &ShaderKey::footprint, &ShaderKey::antialias,
-                                   &ShaderKey::spread}) {
+                                   &ShaderKey::spread, &ShaderKey::whole_source}) {
         ShaderKey row = shadowed_row();
         row.*flag = true;
         EXPECT_NE(program_defines(row), least);

@@ -53,7 +53,11 @@ struct Surface {
     double weight;  // of the blurred texels
 };
 
-LightItem tuned(const ShadowTuning::Moments& moments) { return {.tuning = {.moments = moments}}; }
+LightItem tuned(const ShadowTuning::Moments& moments) {
+    LightItem light;
+    light.tuning.moments = moments;
+    return light;
+}
 
 /// One filter in one format.
 class Store {
