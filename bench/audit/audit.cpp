@@ -30,7 +30,7 @@ public:
 
     AuditedLight audit(const LightItem& of_scene) {
         LightItem light = of_scene;
-        light.source_radius_m = light.sun_radius_rad = 0.0f;
+        light.source_radius_m = light.sun_radius_rad = light.width_m = light.height_m = 0.0f;
         AuditedLight audited;
         audited.name = light.name;
         audited.kind = light.kind;

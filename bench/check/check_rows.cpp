@@ -8,6 +8,7 @@
 #include "bench/compare/evaluate_configuration.h"
 #include "bench/compare/paired_times.h"
 #include "sample_game/support/settings/light_settings.h"
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/light_kinds.h"
 #include "systems/shadow/update/cube_layering.h"
 
@@ -112,6 +113,8 @@ std::vector<CheckRowSetup> check_row_setups() {
     std::vector<CheckRowSetup> setups;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
+            // Maps of area lights are those of a point; the scene of the check has none.
+            if (light_facts(kind.kind).area()) continue;
             if (kind.texture != gl::TextureKind::cube) {
                 setups.push_back(setup_of(kind, filter));
                 continue;

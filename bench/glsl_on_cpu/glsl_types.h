@@ -184,7 +184,8 @@ V& operator*=(V& a, double s) {
 }
 
 using std::abs, std::cos, std::sin, std::sqrt, std::floor, std::ceil, std::exp, std::exp2, std::log, std::log2,
-    std::pow, std::fma;
+    std::pow, std::fma, std::acos, std::atan;
+inline double atan(double y, double x) { return std::atan2(y, x); }
 inline double min(double a, double b) { return b < a ? b : a; }
 inline double max(double a, double b) { return a < b ? b : a; }
 inline int min(int a, int b) { return std::min(a, b); }

@@ -85,6 +85,66 @@ private:
     LightData light_;
 };
 
+/// Reader of a light of EXT_lights_area, which tinygltf does not parse. Its size is the side of a square or the
+/// diameter of a disc. Gnomon's own types have a sphere's diameter, or a tube's length.
+class AreaLightReader {
+public:
+    AreaLightReader(Document& document, std::size_t index)
+        : document_(document),
+          raw_(document.json["extensions"]["EXT_lights_area"]["lights"][index]),
+          where_(pointer("extensions", "EXT_lights_area", "lights", index)) {}
+
+    LightData read() {
+        const auto type = raw_.at("type").get<std::string>();
+        light_.name = raw_.value("name", std::string());
+        light_.type = type == "rect"     ? LightType::rectangle
+                      : type == "disk"   ? LightType::disc
+                      : type == "sphere" ? LightType::sphere
+                                         : LightType::tube;
+        light_.intensity = at_least(0.0, raw_, "intensity", 1.0f, "light.intensity");
+        if (raw_.contains("color"))
+            for (int i = 0; i < 3; ++i) light_.colour[i] = colour(i);
+        const float size_m = at_least(kLeastSize_m, raw_, "size", 1.0f, "light.size");
+        light_.width_m = light_.height_m = size_m;
+        if (type == "rect" && raw_.contains("rect"))
+            light_.width_m = size_m * at_least(kLeastSize_m, raw_["rect"], "aspect", 1.0f, "light.aspect");
+        light_.radius_m = 0.5f * size_m;
+        if (type == "tube") light_.radius_m = tube_radius(size_m);
+        light_.casts_shadow = ExtrasReader(document_, raw_, where_).boolean("shadow", true);
+        return std::move(light_);
+    }
+
+private:
+    static constexpr double kLeastSize_m = 1.0e-6;  // a size of 0 or less: it gives no light that shows
+
+    float at_least(double least, const nlohmann::json& of, const char* member, float otherwise, const char* rule) {
+        if (!of.contains(member)) return otherwise;
+        const auto number = of.at(member).get<float>();
+        if (!std::isfinite(number)) fail(rule, where_ + "/" + member, "is beyond the range of a float");
+        if (static_cast<double>(number) >= least) return number;
+        document_.take(rule, where_ + "/" + member, "is too small, taken as " + std::to_string(least));
+        return static_cast<float>(least);
+    }
+
+    float colour(int channel) {
+        const auto number = raw_.at("color").at(static_cast<std::size_t>(channel)).get<float>();
+        if (!std::isfinite(number)) fail("light.colour", where_ + "/color", "is beyond the range of a float");
+        if (number >= 0.0f) return number;
+        document_.take("light.colour", where_ + "/color", "is negative, taken as 0");
+        return 0.0f;
+    }
+
+    float tube_radius(float length_m) {
+        const float usual_m = 0.02f * length_m;  // a fluorescent tube's, by its length
+        return raw_.contains("tube") ? at_least(kLeastSize_m, raw_["tube"], "radius", usual_m, "light.size") : usual_m;
+    }
+
+    Document& document_;
+    const nlohmann::json& raw_;
+    std::string where_;
+    LightData light_;
+};
+
 /// Returns width by height of the frame; 0 with a warning if the file's value is invalid.
 double frame_aspect(Document& document, double aspect, const std::string& where) {
     if (aspect > 0.0 && std::isfinite(aspect)) return aspect;
@@ -141,6 +201,10 @@ std::optional<CameraData> load_orthographic(Document& document, const tinygltf::
 void load_lights(Document& document, SceneData& scene) {
     for (std::size_t i = 0; i < document.model.lights.size(); ++i)
         scene.lights.push_back(LightReader(document, i).read());
+    const nlohmann::json::json_pointer area("/extensions/EXT_lights_area/lights");
+    if (!document.json.contains(area)) return;
+    for (std::size_t i = 0; i < document.json.at(area).size(); ++i)
+        scene.lights.push_back(AreaLightReader(document, i).read());
 }
 
 std::vector<std::int32_t> load_cameras(Document& document, SceneData& scene) {

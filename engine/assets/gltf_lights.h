@@ -7,7 +7,7 @@
 
 namespace gnomon::assets::gltf {
 
-/// Fills scene.lights from KHR_lights_punctual, one each, in order. Invalid values become the nearest valid ones, with
+/// Fills scene.lights from KHR_lights_punctual and then EXT_lights_area, one each, in order. Invalid values become the nearest valid ones, with
 /// a warning. Numbers beyond a float throw Failure.
 void load_lights(Document& document, SceneData& scene);
 

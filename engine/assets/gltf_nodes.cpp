@@ -183,7 +183,7 @@ private:
         node.visible = extras.boolean("visible", true);
         node.shadow_catcher = extras.boolean("shadowCatcher", false);
         node.motion = extras.motion();
-        node.light = light_of(raw, extras);
+        node.light = light_of(raw, extras, where);
         became_[at] = static_cast<std::int32_t>(scene_.nodes.size());
         std::optional<Node> mesh_node;
         if (node.mesh != kNone && places_[static_cast<std::size_t>(node.mesh)] != MeshPlace{})
@@ -219,10 +219,15 @@ private:
         scene_.nodes.push_back(std::move(node));
     }
 
-    std::int32_t light_of(const json& raw, const ExtrasReader& extras) {
-        const json::json_pointer path("/extensions/KHR_lights_punctual/light");
-        if (!raw.contains(path)) return kNone;
-        const auto light = raw.at(path).get<std::size_t>();
+    std::int32_t light_of(const json& raw, const ExtrasReader& extras, const std::string& where) {
+        const json::json_pointer path("/extensions/KHR_lights_punctual/light"),
+            area("/extensions/EXT_lights_area/light");
+        if (!raw.contains(path) && !raw.contains(area)) return kNone;
+        // Area lights follow those of KHR_lights_punctual: load_lights().
+        const std::size_t light = raw.contains(path) ? raw.at(path).get<std::size_t>()
+                                                     : document_.model.lights.size() + raw.at(area).get<std::size_t>();
+        if (raw.contains(path) && raw.contains(area))
+            document_.take("light.two", where, "has two lights, of which that of EXT_lights_area is left out");
         const bool own = scene_.lights[light].casts_shadow;
         const bool wanted = extras.boolean("shadow", own);
         if (wanted == own) return static_cast<std::int32_t>(light);

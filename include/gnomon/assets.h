@@ -234,16 +234,18 @@ struct CameraData {
 };
 
 /// Kind of a light of a file.
-enum class LightType : std::uint8_t { directional, spot, point };
-/// Light of a file, as KHR_lights_punctual has it.
+enum class LightType : std::uint8_t { directional, spot, point, rectangle, disc, sphere, tube };
+/// Light of a file, as KHR_lights_punctual or EXT_lights_area has it.
 struct LightData {
     std::string name;                     // as in the file
     LightType type = LightType::point;    // kind
     glm::vec3 colour{1.0f};               // linear
-    float intensity = 1.0f;               // lux of a directional light, else candela
+    float intensity = 1.0f;               // lux of a directional light, nits of an area light, else candela
     float range_m = 0.0f;                 // 0: unlimited
     float inner_cone_rad = 0.0f;          // spot: half angle of full intensity
     float outer_cone_rad = 0.785398163f;  // spot: half angle where light ends
+    float width_m = 1.0f, height_m = 1.0f;  // rectangle; width_m: also length of a tube
+    float radius_m = 0.0f;                  // disc, sphere and tube
     bool casts_shadow = true;             // extras.shadow of the light or its node
 };
 

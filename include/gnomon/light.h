@@ -12,7 +12,10 @@ inline constexpr float kMostSunRadius_rad = 0.523598776f;
 inline constexpr float kMostSourceRadius_m = 1.0e4f;
 
 /// Kind of a light. `directional`: a sun, with parallel rays. `spot`: a cone from a place. `point`: in all directions.
-enum class LightKind : unsigned char { directional, spot, point };
+/// The others are area lights: surfaces that shine alike from every place. `rectangle` and `disc` lie in their own XY
+/// plane and shine from one side, along -Z. `sphere` shines all round. `tube` is a cylinder along its X axis that shines
+/// from its side, not from its ends. Nothing in the way of an area light is part of it: it casts no shadow itself.
+enum class LightKind : unsigned char { directional, spot, point, rectangle, disc, sphere, tube };
 /// Returns its name, for example "spot".
 const char* to_text(LightKind kind);
 
@@ -31,15 +34,23 @@ const char* to_text(LightKind kind);
 /// - 1 000: spot in a shop
 /// - 20 000: headlight on full beam
 /// - 1 000 000: searchlight
+///
+/// Nits (candela per square metre) of an area light:
+/// - 250: screen
+/// - 3 000: panel in an office
+/// - 10 000: fluorescent tube
+/// - 100 000: frosted bulb
+///
+/// A small source of A square metres and L nits is, from its front, as bright as A * L candela.
 struct Light {
     /// Kind of light: the fields below state for which kinds they count.
     LightKind kind = LightKind::point;
     /// Colour, linear, Rec. 709, each at least 0. It scales the intensity; black switches the light off.
     glm::vec3 colour{1.0f};
-    /// Strength, at least 0. Directional: lux at the surface; spot and point: candela. Effect: brightness, and which
-    /// lights a budget keeps. 0: the light is off and has no shadow.
+    /// Strength, at least 0. Directional: lux at the surface; spot and point: candela; area lights: nits. Effect:
+    /// brightness, and which lights a budget keeps. 0: the light is off and has no shadow.
     float intensity = 100.0f;
-    /// Distance at which spot and point lights end, metres. 0: unlimited. Change it to cut cost: what lies beyond
+    /// Distance from its position at which a light other than a directional one ends, metres. 0: unlimited. Change it to cut cost: what lies beyond
     /// is neither lit nor in the map.
     float range_m = 0.0f;
     /// Half angle of a spot's full intensity, radians, from 0 to below outer_cone_rad. Larger: a harder rim.
@@ -47,11 +58,17 @@ struct Light {
     /// Half angle at which a spot's light ends, radians, above 0, at most pi/2. Narrower cones have finer shadows.
     float outer_cone_rad = 0.785398163f;
     /// Radius of a spot's or point's source, metres, 0 to kMostSourceRadius_m. 0: a point, with hard shadows. Read by
-    /// the filters pcss, pcss_moments and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5.
+    /// the filters pcss, pcss_moments and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5. What shines of a disc,
+    /// sphere or tube has this radius. Without one, such a light is left out and reported as dropped.
     float source_radius_m = 0.0f;
     /// Angular radius of a sun's disk, radians, 0 to kMostSunRadius_rad. 0: a point. Read by the same filters. The
     /// real sun: 0.00465; a thin cloud before it: 0.05.
     float sun_radius_rad = 0.0f;
+    /// Width of a rectangle along its X axis, or length of a tube, metres, above 0, at most 2 * kMostSourceRadius_m. With
+    /// any other value the light is left out and reported as dropped. Wider: more light and softer shadows.
+    float width_m = 1.0f;
+    /// Height of a rectangle along its Y axis, metres, in the same range.
+    float height_m = 1.0f;
 };
 
 /// Bits of up to eight shadow layers. Lights, casters and receivers each have a set, by default all layers.

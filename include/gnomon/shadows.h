@@ -125,10 +125,13 @@ struct DrawableDesc {
 struct LightDesc {
     std::string name = {};  // in captures and messages; empty: "light" and a number; a repeated one gets .1, .2, …
     Light light = {};       // kind, colour, intensity, range, cone and size
-    glm::dvec3 position_m{0.0};  // spot and point: world
-    /// Way in which a sun or spot shines, world; any length above 0. How a spot's map turns about it is Gnomon's
+    glm::dvec3 position_m{0.0};  // lamps: world
+    /// Way in which a sun, spot, rectangle or disc shines, world; any length above 0. How a spot's map turns about it is Gnomon's
     /// choice.
     glm::dvec3 direction{0.0, -1.0, 0.0};
+    /// Way of the X axis of a rectangle or tube, world; any length. What of it points along `direction` is left out. 0:
+    /// Gnomon's choice.
+    glm::dvec3 right{0.0};
     LightShadow shadow = {};  // accuracy and cost of its shadow
 };
 

@@ -41,6 +41,9 @@ FilterFigures figures_of(ShadowFilter filter) {
 }
 
 bool is_sun(LightKind kind) { return light_facts(kind).parallel; }
+bool has_width(LightKind kind) { return has_height(kind) || light_facts(kind).shape == SourceShape::tube; }
+bool has_height(LightKind kind) { return light_facts(kind).shape == SourceShape::rectangle; }
+bool has_radius(LightKind kind) { return light_facts(kind).area() && !has_height(kind); }
 bool is_point(LightKind kind) { return !light_facts(kind).parallel && !light_facts(kind).cone; }
 
 }  // namespace gnomon::game

@@ -29,5 +29,9 @@ FilterFigures figures_of(ShadowFilter filter);
 /// Returns whether the rays of such lights are parallel, or go in all directions.
 bool is_sun(LightKind kind);
 bool is_point(LightKind kind);
+/// Returns whether the source of such lights has a width, a height, a radius that it cannot be without.
+bool has_width(LightKind kind);
+bool has_height(LightKind kind);
+bool has_radius(LightKind kind);
 
 }  // namespace gnomon::game

@@ -24,6 +24,7 @@ const int kLineBuffer = 0;
 const int kRayListBuffer = 1;
 const int kPyramidBuffer = 2;
 const int kTintBuffer = 3;
+const int kAreaTableBuffer = 4;
 const int kMaskBuffer = 7;
 
 // Texture units of surfaces as they are drawn.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/math/finite.h"
-#include "engine/math/projection.h"
+#include "systems/embed/light_orientation.h"
 #include "systems/embed/mesh_of.h"
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/light_facts.h"
@@ -28,13 +28,6 @@ ecs::Entity entity_of(Id id) {
     return {id.index, id.version};
 }
 
-/// Returns a rotation that looks along `direction`. Empty: it has none.
-std::optional<glm::dmat3> looking_along(const glm::dvec3& direction) {
-    const double size = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    if (!math::is_finite(direction) || !(size > 0.0)) return std::nullopt;
-    return math::basis_from_back(-glm::normalize(direction / size));
-}
-
 /// Writes a field. Returns true if its value changed, NaN included.
 template <class T>
 bool put_field(T& field, const T& value) {
@@ -51,7 +44,7 @@ bool can_shine(const LightDesc& desc, DropReason& fault) {
     if (!math::is_finite(desc.position_m)) return false;
     fault = DropReason::zero_rotation;
     const LightFacts& facts = light_facts(desc.light.kind);
-    return !(facts.parallel || facts.cone) || looking_along(desc.direction).has_value();
+    return !facts.aimed() || orientation_of(desc).has_value();
 }
 
 /// Writes all but the name. Sets shape_version to `version` if that differs. Returns true if anything does.
@@ -59,13 +52,15 @@ bool put_light(const LightDesc& desc, const ShadowTuning& tuning, std::uint64_t 
     const Light& light = desc.light;
     bool shape = put_field(item.kind, light.kind);
     shape |= put_field(item.position_ws_m, desc.position_m);
-    shape |= put_field(item.rotation_ws, looking_along(desc.direction).value_or(glm::dmat3(1.0)));
+    shape |= put_field(item.rotation_ws, orientation_of(desc).value_or(glm::dmat3(1.0)));
     shape |= put_field(item.range_m, static_cast<double>(light.range_m));
     shape |= put_field(item.inner_cone_rad, static_cast<double>(light.inner_cone_rad));
     shape |=
         put_field(item.outer_cone_rad, std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>()));
     shape |= put_field(item.source_radius_m, light.source_radius_m);
     shape |= put_field(item.sun_radius_rad, light.sun_radius_rad);
+    shape |= put_field(item.width_m, light.width_m);
+    shape |= put_field(item.height_m, light.height_m);
     shape |= put_field(item.has_shadow, true);
     shape |= put_field(item.shadow, desc.shadow);
     shape |= put_field(item.tuning, tuning);
@@ -334,7 +329,8 @@ void SceneStore::list_lights() {
         light.item = static_cast<std::uint32_t>(snapshot_.lights.size());
         const auto was = std::find_if(before.begin(), before.end(),
                                       [&](const LightItem& item) { return item.entity == entity_of(id); });
-        snapshot_.lights.push_back(was != before.end() ? std::move(*was) : LightItem{.entity = entity_of(id)});
+        snapshot_.lights.push_back(was != before.end() ? std::move(*was) : LightItem{});
+        snapshot_.lights.back().entity = entity_of(id);
         snapshot_.lights.back().name = light.desc.name.empty() ? "light" + std::to_string(id.index) : light.desc.name;
     });
     make_names_unique(snapshot_.lights);

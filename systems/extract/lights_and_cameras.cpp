@@ -32,6 +32,8 @@ bool put_light(const ecs::Registry& registry, const Light& light, const WorldTra
     shape |= put(item.outer_cone_rad, now.outer_cone_rad);
     shape |= put(item.source_radius_m, now.source_radius_m);
     shape |= put(item.sun_radius_rad, now.sun_radius_rad);
+    shape |= put(item.width_m, now.width_m);
+    shape |= put(item.height_m, now.height_m);
     shape |= put(item.has_shadow, shadow != nullptr);
     shape |= put(item.shadow, shadow ? *shadow : LightShadow{});
     shape |= put(item.tuning, tuning ? *tuning : ShadowTuning{});

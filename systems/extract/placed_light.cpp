@@ -17,6 +17,8 @@ LightItem placed(const Light& light, const WorldTransform& world) {
     item.outer_cone_rad = std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>());
     item.source_radius_m = light.source_radius_m;
     item.sun_radius_rad = light.sun_radius_rad;
+    item.width_m = light.width_m;
+    item.height_m = light.height_m;
     return item;
 }
 

@@ -37,7 +37,12 @@ struct ConsumerItem {
     bool operator==(const ConsumerItem&) const = default;
 };
 
-struct LightItem {
+/// Sides of an area light, metres: of a rectangle both; the width is also the length of a tube.
+struct SourceSides {
+    float width_m = 1.0f, height_m = 1.0f;
+};
+
+struct LightItem : SourceSides {
     ecs::Entity entity = {};
     std::string name = {};  // unique within the snapshot
     LightKind kind = LightKind::point;
@@ -47,7 +52,7 @@ struct LightItem {
     float intensity = 0.0f;
     double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    float source_radius_m = 0.0f;  // spot and point
+    float source_radius_m = 0.0f;  // lamps
     float sun_radius_rad = 0.0f;   // sun
     bool has_shadow = false;       // a LightShadow component exists
     LightShadow shadow = {};

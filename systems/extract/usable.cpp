@@ -7,12 +7,29 @@
 
 namespace gnomon {
 
+namespace {
+
+bool is_source_size(float size_m, float most_m) { return size_m > 0.0f && size_m <= most_m; }
+
+/// Returns whether an area light has an area.
+bool has_area(const Light& light) {
+    constexpr float kMostSide_m = 2.0f * kMostSourceRadius_m;
+    const SourceShape shape = light_facts(light.kind).shape;
+    const bool wide = shape == SourceShape::rectangle || shape == SourceShape::tube;
+    if (wide && !is_source_size(light.width_m, kMostSide_m)) return false;
+    if (shape == SourceShape::rectangle) return is_source_size(light.height_m, kMostSide_m);
+    return shape == SourceShape::facing || is_source_size(light.source_radius_m, kMostSourceRadius_m);
+}
+
+}  // namespace
+
 bool usable(const Light& light) {
     const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
                          light.range_m >= 0.0f && light.colour.r >= 0.0f && light.colour.g >= 0.0f &&
                          light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
     // Shaders multiply both in float: an infinite product becomes NaN where no light arrives.
     if (!numbers || !std::isfinite(light.intensity * (light.colour.r + light.colour.g + light.colour.b))) return false;
+    if (!has_area(light)) return false;
     return !light_facts(light.kind).cone ||
            (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
             light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);

@@ -51,9 +51,10 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
     SceneLight sum;
     glm::dvec3 bounce_lux(0.0);
     for (const LightItem& light : scene.lights) {
-        const glm::dvec3 power = glm::dvec3(light.colour) * static_cast<double>(light.intensity);
-        const double strongest = std::max({power.r, power.g, power.b});
         const LightFacts& facts = light_facts(light.kind);
+        const double area_m2 = shown_area_m2(light);  // an area light's power is that of its brightest side
+        const glm::dvec3 power = glm::dvec3(light.colour) * (static_cast<double>(light.intensity) * area_m2);
+        const double strongest = std::max({power.r, power.g, power.b});
         if (facts.parallel) {
             sum.suns_lux += strongest;
             sum.sky_lux += light.colour * light.intensity * kSkyShare * glm::vec3(0.85f, 0.95f, 1.2f);
@@ -62,7 +63,8 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
         const glm::dvec3 away_m = light.position_ws_m - midst.middle_ws_m;
         const double room_m2 = midst.reach_m * midst.reach_m + glm::dot(away_m, away_m);
         if (!(room_m2 > 0.0)) continue;  // nothing to light
-        const double cone_share = facts.cone ? 0.5 * (1.0 - std::cos(static_cast<double>(light.outer_cone_rad))) : 1.0;
+        const double cone_share =
+            facts.cone ? 0.5 * (1.0 - std::cos(static_cast<double>(light.outer_cone_rad))) : facts.flux_share;
         sum.lamps_lux += strongest / room_m2;
         bounce_lux += power * (kReflected * cone_share / room_m2);
     }

@@ -9,6 +9,7 @@
 #include "engine/math/frustum.h"
 #include "shaders/bindings.h"
 #include "systems/extract/instance_order.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_timers.h"
 #include "systems/lighting/jittered_camera.h"
@@ -37,6 +38,7 @@ LightingSystem::LightingSystem(gl::Device& device)
       targets_(device),
       ray_list_(device),
       edges_(device),
+      area_table_(device),
       caught_(device),
       depths_(device),
       exposure_(device),
@@ -87,6 +89,9 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap(transparent))
         return programs_.failure();
     caught_.provide(!catchers_.empty(), targets_.size_px());
+    const auto shows_area = [](const LightItem& light) { return light_facts(light.kind).area(); };
+    if (!area_table_.provide(std::any_of(scene.lights.begin(), scene.lights.end(), shows_area)))
+        return gl::Failure::out_of_memory;
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
                       uniforms_.reserve(kept_offset_ + std::uint64_t{kept_stride_} * inputs.lights.size());
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
@@ -292,6 +297,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     plan_passes(inputs, scene, settings);
     upload(inputs, scene, gpu, settings, list);
     record_surfaces(gpu, list);
+    if (area_table_.buffer()) list.add(gl::BindStorage{bindings::kAreaTableBuffer, area_table_.buffer()});
     if (settings.sample_depths)
         depths_.record({camera, targets_.depth, point_sampler_, uniforms_.handle(), targets_.size_px()}, list);
     record_lights(inputs, scene, gpu, list, outcome);

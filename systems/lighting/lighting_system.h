@@ -10,6 +10,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/lighting/ambient.h"
+#include "systems/lighting/area_table.h"
 #include "systems/lighting/catcher_pass.h"
 #include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/edge_pass.h"
@@ -175,6 +176,7 @@ private:
     LightingTargets targets_;
     RayList ray_list_;
     EdgePass edges_;
+    AreaTable area_table_;
     CatcherPass caught_;
     DepthSampler depths_;
     ExposureMeter exposure_;

@@ -58,7 +58,7 @@ void LightTruth::reset(std::size_t pixels) {
 
 LightItem as_point(const LightItem& light) {
     LightItem point = light;
-    point.source_radius_m = point.sun_radius_rad = 0.0f;
+    point.source_radius_m = point.sun_radius_rad = point.width_m = point.height_m = 0.0f;
     return point;
 }
 

@@ -35,12 +35,15 @@ struct LightQueries::Worker {
     NearOrder order;
     rays::RayPacket rays;
     rays::PerLane<std::uint32_t> place_of_lane{};
+    rays::PerLane<double> weight_of_lane{};
+    std::vector<double> weights;  // sums over a place's rays, for area lights
     std::uint32_t hint = 0;
 
     void answer(const Batch& batch, std::size_t first, std::size_t count) {
         const std::span<const Place> places = batch.places.subspan(first, count);
         const std::span<float> answers = batch.answers.subspan(first, count);
         std::fill(answers.begin(), answers.end(), 0.0f);
+        weights.assign(batch.light.area() ? count : 0, 0.0);
         rays.last = batch.light.last();
         rays.count = 0;
         for (const std::uint32_t i : order.of(places)) {
@@ -49,23 +52,31 @@ struct LightQueries::Worker {
                 LightRay ray;
                 const Reach reach = batch.light.ray(places[i], sample, ray);
                 if (reach == Reach::all) answers[i] += 1.0f;
+                if (reach == Reach::all && batch.light.area()) weights[i] += 1.0;
                 if (reach != Reach::ray) continue;
                 rays.from[rays.count] = ray.from_ws_m;
                 rays.along[rays.count] = ray.along;
                 rays.first[rays.count] = batch.nearest_m > 0.0 ? batch.nearest_m / glm::length(ray.along) : 0.0;
                 place_of_lane[rays.count] = i;
+                weight_of_lane[rays.count] = ray.weight;
+                if (batch.light.area()) weights[i] += ray.weight;
                 if (++rays.count == rays::kLanes) send(batch, answers);
             }
         }
         if (rays.count > 0) send(batch, answers);
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            answers[i] = weights[i] > 0.0 ? std::min(answers[i] / static_cast<float>(weights[i]), 1.0f) : 0.0f;
+        if (batch.light.area()) return;
         for (std::size_t i = 0; i < count; ++i) answers[i] /= static_cast<float>(batch.light.count(places[i].radius_m));
     }
 
     /// Adds 1 to the results of places with an unblocked ray.
     void send(const Batch& batch, std::span<float> answers) {
         rays::Lanes lit = rays.lanes() & ~blocked_rays(batch.scene, batch.trees, batch.layers, rays, hint);
-        for (; lit != 0; lit &= lit - 1u)
-            answers[place_of_lane[static_cast<std::size_t>(std::countr_zero(lit))]] += 1.0f;
+        for (; lit != 0; lit &= lit - 1u) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(lit));
+            answers[place_of_lane[lane]] += static_cast<float>(weight_of_lane[lane]);
+        }
         rays.count = 0;
     }
 };

@@ -10,6 +10,7 @@
 
 #include "engine/math/finite.h"
 #include "systems/extract/light_facts.h"
+#include "systems/extract/source_place.h"
 
 namespace gnomon::visibility {
 namespace {
@@ -46,7 +47,9 @@ void fill_disk(std::size_t count, std::vector<glm::dvec2>& disk) {
 LightRays::LightRays(const LightItem& light, std::span<const glm::dvec2> disk)
     : light_(light), disk_(disk), partner_(even_step(disk.size())) {
     const LightFacts& facts = light_facts(light.kind);
-    const auto size = static_cast<double>(std::clamp(light.*facts.source_size, 0.0f, facts.most_source_size));
+    const auto size = static_cast<double>(std::clamp(source_extent(light), 0.0f, facts.most_source_size));
+    area_ = facts.area();
+    square_ = facts.shape == SourceShape::rectangle || facts.shape == SourceShape::tube;
     size_ = facts.parallel ? std::tan(size) : size;
     sized_ = size_ > 0.0;
     last_ = facts.parallel ? std::numeric_limits<double>::infinity() : 1.0;
@@ -61,9 +64,21 @@ bool LightRays::reaches(const glm::dvec3& point_ws_m) const {
     const glm::dvec3 to_light = light_.position_ws_m - point_ws_m;
     const double distance_m = glm::length(to_light);
     if (!(distance_m > 0.0) || (light_.range_m > 0.0 && distance_m > light_.range_m)) return false;
-    if (!facts.cone) return true;
+    if (!facts.cone) return is_shone_on(light_, to_light);
     const glm::dvec3& back = light_.rotation_ws[2];
     return glm::dot(to_light, back) >= outer_cosine_ * distance_m * glm::length(back);
+}
+
+Reach LightRays::source_ray(const Place& place, const glm::dvec3& middle, const glm::dvec2& at, LightRay& ray) const {
+    const SourcePlace source = source_place(light_, middle, at);
+    ray.along = source.way_m;
+    const double distance_m = glm::length(ray.along);
+    const double cosine = place.radius_m > 0.0 || place.normal_ws == glm::dvec3(0.0)
+                              ? 1.0
+                              : glm::dot(place.normal_ws, ray.along) / distance_m;
+    ray.weight = source.weight * cosine;
+    if (!(ray.weight > 0.0) || !math::is_finite(ray.along) || !math::is_finite(ray.from_ws_m)) return Reach::none;
+    return reaches(ray.from_ws_m) ? Reach::ray : Reach::none;
 }
 
 Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) const {
@@ -85,6 +100,7 @@ Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) cons
             if (!sun) middle = light_.position_ws_m - ray.from_ws_m;
         }
         const glm::dvec2& at = disk_[sample * partner_ % disk_.size()];
+        if (area_) return source_ray(place, middle, square_ ? disk_to_square(at) : at, ray);
         ray.along = middle + size_ * (right * at.x + up * at.y);
     } else {
         ray.along = middle;

@@ -47,7 +47,9 @@ protected:
                 }
         const auto map = keep(device().create_texture({.label = "depths", .kind = gl::TextureKind::cube, .format = gl::Format::d32f, .width = kFace_px, .height = kFace_px},
                                                       std::as_bytes(std::span(depths))));
-        const LightItem lamp{.kind = LightKind::point, .tuning = {.kernel = {.size_texel = size}}};
+        LightItem lamp;
+        lamp.kind = LightKind::point;
+        lamp.tuning.kernel.size_texel = size;
         const auto moments = moments_of(shadow::filter_row(ShadowFilter::vsm), lamp, map, kFace_px, {kLampNear_m, kLampFar_m});
         std::vector<std::vector<float>> faces;
         for (std::uint32_t face = 0; face < 6; ++face) faces.push_back(read<float>(moments, std::size_t{kFace_px} * kFace_px * 2, face));

@@ -8,6 +8,7 @@
 #include "engine/gl/shader_source.h"
 #include "shaders/embedded.h"
 #include "systems/debug/debug_view.h"
+#include "systems/extract/light_facts.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/shadow/passes/prefilter_pass.h"
 #include "systems/shadow/request/filter_table.h"
@@ -29,6 +30,13 @@ inline std::vector<shadow::FilterRow> map_filters() {
     return rows;
 }
 
+/// Returns whether a define is that of an area light.
+inline bool is_area(std::string_view define) {
+    const auto rows = shadow::light_kind_table();
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](const shadow::LightKindRow& row) { return row.define == define && light_facts(row.kind).area(); });
+}
+
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns and
 /// points in perspective, suns warped; and of those that ask by rays, with and without masked casters and maps.
 inline std::vector<shadow::ShaderKey> all_rows() {
@@ -37,7 +45,7 @@ inline std::vector<shadow::ShaderKey> all_rows() {
         rows.push_back({kind.define, {}, {}});
         for (const shadow::FilterRow& filter : map_filters())
             for (const bool fades : {false, true})
-                if (!fades || kind.kind != LightKind::point)  // a cube has nothing to fade into
+                if (!fades || kind.texture != gl::TextureKind::cube)  // a cube has nothing to fade into
                     rows.push_back(
                         {kind.define, kind.file, filter.file, filter.reach_texel, fades, reads_depths(filter)});
         for (const shadow::FilterRow& filter : map_filters())
@@ -59,6 +67,7 @@ inline std::vector<shadow::ShaderKey> all_rows() {
             if (filter.file != row.filter_file) continue;
             row.triangles = reads_triangles(filter);
             row.moments = reads_moments(filter);
+            row.whole_source = is_area(row.kind_define) && filter.width == shadow::FilterWidth::source;
         }
     const std::size_t plain = rows.size();
     for (std::size_t i = 0; i < plain; ++i)
@@ -82,8 +91,9 @@ inline std::vector<shadow::ShaderKey> all_rows() {
                                         .depths = sheets,
                                         .sheets = sheets,
                                         .rays = true,
-                                        .ray_masks = masks});
-                        if (kind.kind != LightKind::point) continue;
+                                        .ray_masks = masks,
+                                        .whole_source = is_area(kind.define) && filter.width == shadow::FilterWidth::source});
+                        if (kind.texture != gl::TextureKind::cube) continue;
                         rows.push_back(rows.back());
                         rows.back().kind_file = shadow::kPerspectiveFile;
                     }

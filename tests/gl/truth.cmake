@@ -9,6 +9,7 @@ if(GNOMON_SAMPLE)
     resolved_edges_gl_test.cpp
     recorded_errors.cpp
     soft_shadows_gl_test.cpp
+    area_lights_gl_test.cpp
     sweep_bounds_gl_test.cpp
     sweep_gl_test.cpp
     truth_accuracy_gl_test.cpp

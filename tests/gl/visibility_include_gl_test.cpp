@@ -360,7 +360,8 @@ TEST_P(FewestFetches, AreTheMeanOfASquareOfHardwareTapsATexelApart) {
         for (int i = 0; i < 500; ++i) points.push_back({place(random) * (kind == LightKind::directional ? 1.0f : 8.0f), place(random), -8.0f});
         for (const std::uint32_t size : {1u, 3u, 5u, 7u}) {
             SCOPED_TRACE(std::string(shadow::light_kind_row(kind).name) + " " + std::to_string(size));
-            const LightItem wide{.tuning = {.kernel = {.size_texel = size}}};
+            LightItem wide;
+            wide.tuning.kernel.size_texel = size;
             use(plain, wide);
             const auto wanted = look_up(kind, texels, points);
             use(GetParam(), wide);

@@ -11,6 +11,7 @@
 #include "tests/oracle/parallel_rows.h"
 #include "tests/oracle/pixel_ray.h"
 #include "tests/oracle/reference_world.h"
+#include "systems/extract/source_place.h"
 #include "tests/oracle/soft_truth.h"
 
 namespace gnomon::oracle {
@@ -21,13 +22,14 @@ struct Places {
     std::uint32_t all = 0, seen = 0, lit = 0;  // all places; those on the seen surface; the lit ones of these
     std::uint32_t behind = 0;                  // seen ones, for places of the source behind the surface
     std::uint32_t rays() const { return seen - behind; }
+    double light = 0.0, lit_light = 0.0;       // sums of the rays' weights, 1 except for places of area lights
     bool faces = true;                         // false: the light does not reach or face some place
     bool mixed() const { return !faces || seen < all || (lit > 0 && lit < rays()); }
     bool is_lit() const { return lit > 0; }
     /// Writes what they found; nothing where the light does not reach or face them all, or none is on the surface.
     void write(std::size_t i, AreaTruth& truth) const {
         if (all == 0 || !faces || rays() == 0) return;
-        truth.lit[i] = static_cast<float>(lit) / static_cast<float>(rays());
+        truth.lit[i] = static_cast<float>(lit_light / light);
         truth.area[i] = seen == all ? PixelArea::whole : PixelArea::partial;
     }
 };
@@ -42,7 +44,7 @@ glm::dvec2 lattice_place(std::uint32_t i, std::uint32_t count) {
 
 /// Returns the i-th place of the unit disk, in no step with lattice_place(). Neighbouring pixels have others, so that
 /// few rays of each find what few of one would miss.
-glm::dvec2 source_place(std::uint32_t i, std::size_t pixel) {
+glm::dvec2 source_disk_place(std::uint32_t i, std::size_t pixel) {
     const glm::dvec2 turns = (i + 0.5) * glm::dvec2(std::sqrt(2.0), std::sqrt(3.0)) +
                              static_cast<double>(pixel) * glm::dvec2(std::sqrt(5.0), std::sqrt(7.0));
     return on_disk(turns - glm::floor(turns));
@@ -67,7 +69,7 @@ public:
         places.all = side * side;
         const double within_m = kSameSurface_px * pixel_width_m(pixel, centre);
         for (std::uint32_t i = 0; i < side * side && places.faces; ++i) {
-            add_place(pixel, centre + lattice_place(i, side * side), source_place(i, pixel), within_m, places, hint);
+            add_place(pixel, centre + lattice_place(i, side * side), source_disk_place(i, pixel), within_m, places, hint);
         }
         return places;
     }
@@ -97,15 +99,30 @@ private:
         glm::dvec3 to_light;
         double t_max = 0.0;
         const bool reached = reach(light_, light_rel_m_, point, to_light, t_max);
-        places.faces = reached && cosine_between(normal, to_light) > kMinCosine;
+        const bool of_area = source_ > 0.0 && light_facts(light_.kind).area();
+        places.faces = reached && (of_area ? sees_source(light_, to_light, normal)
+                                           : cosine_between(normal, to_light) > kMinCosine);
         if (!places.faces) return;
         ++places.seen;
         const ShadowLayers layers = light_.shadow.layers;
         if ((triangle.receive_layers & layers) == 0) {
             ++places.lit;
+            places.light += 1.0;
+            places.lit_light += 1.0;
             return;
         }
-        if (source_ > 0.0) {
+        double weight = 1.0;
+        if (of_area) {
+            const SourceShape shape = light_facts(light_.kind).shape;
+            const bool square = shape == SourceShape::rectangle || shape == SourceShape::tube;
+            const SourcePlace place = source_place(light_, to_light, square ? disk_to_square(on_source) : on_source);
+            to_light = place.way_m;
+            weight = place.weight > 0.0 ? place.weight * cosine_between(normal, to_light) : 0.0;
+            if (!(weight > 0.0)) {
+                ++places.behind;
+                return;
+            }
+        } else if (source_ > 0.0) {
             const auto axes = tangents(glm::normalize(to_light));
             to_light += source_ * (axes[0] * on_source.x + axes[1] * on_source.y);
             if (!(glm::dot(to_light, normal) > 0.0)) {
@@ -114,10 +131,13 @@ private:
             }
         }
         const std::uint32_t found = world_.occluder(make_ray(point, to_light), t_max, hit.triangle, hint, layers);
-        if (found == kNoTriangle)
+        places.light += weight;
+        if (found == kNoTriangle) {
             ++places.lit;
-        else
+            places.lit_light += weight;
+        } else {
             hint = found;
+        }
     }
 
     const TracedWorld& world_;

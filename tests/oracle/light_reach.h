@@ -5,11 +5,12 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::oracle {
 
-/// Direction to the light's middle and how far along it the light is; false outside its range or cone.
+/// Direction to the light's middle and how far along it the light is; false outside its range or cone, or behind its plane.
 inline bool reach(const LightItem& light, const glm::dvec3& light_rel_m, const glm::dvec3& point_rel_m,
                   glm::dvec3& to_light, double& t_max) {
     if (light.kind == LightKind::directional) {
@@ -22,7 +23,7 @@ inline bool reach(const LightItem& light, const glm::dvec3& light_rel_m, const g
     const double distance_m = glm::length(to_light);
     if (!(distance_m > 0.0)) return false;
     if (light.range_m > 0.0 && distance_m > light.range_m) return false;
-    if (light.kind == LightKind::point) return true;
+    if (light.kind != LightKind::spot) return is_shone_on(light, to_light);
     const double cosine = glm::dot(to_light, light.rotation_ws[2]) / (distance_m * glm::length(light.rotation_ws[2]));
     return cosine >= std::cos(light.outer_cone_rad);
 }

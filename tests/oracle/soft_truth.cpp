@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "systems/extract/source_place.h"
 #include "tests/oracle/light_reach.h"
 #include "tests/oracle/parallel_rows.h"
 #include "tests/oracle/reference_world.h"
@@ -30,25 +31,26 @@ glm::dvec2 random_place(std::uint64_t seed) {
     return {static_cast<double>(bits & 0xffffffffULL) * kUnit, static_cast<double>(bits >> 32) * kUnit};
 }
 
-/// What a pixel's rays found.
+/// What a pixel's rays found: sums of their weights, which are 1 except for area lights.
 struct Sum {
-    std::uint32_t lit = 0, rays = 0;  // of those that leave the surface
+    double lit = 0.0, rays = 0.0;  // of those that leave the surface
     bool all_lit() const { return lit == rays; }
-    bool mixed() const { return lit > 0 && lit < rays; }
+    bool mixed() const { return lit > 0.0 && lit < rays; }
 };
 
 class SourceTracer {
 public:
     SourceTracer(const TracedWorld& world, const PrimaryHits& hits, const LightItem& light)
-        : world_(world), hits_(hits), light_(light), size_(source_size(light)) {}
+        : world_(world), hits_(hits), light_(light), size_(source_size(light)), area_(light_facts(light.kind).area()) {}
 
     /// Whether the light's middle is in reach and before the surface.
     bool scored(std::size_t pixel) const {
         if (hits_.triangle[pixel] == kNoTriangle) return false;
         glm::dvec3 to_light;
         double t_max = 0.0;
-        return reach(light_, light_rel_m(), hits_.position_rel_m[pixel], to_light, t_max) &&
-               cosine_between(hits_.normal_ws[pixel], to_light) > kMinCosine;
+        const bool reached = reach(light_, light_rel_m(), hits_.position_rel_m[pixel], to_light, t_max);
+        if (area_) return reached && sees_source(light_, to_light, hits_.normal_ws[pixel]);
+        return reached && cosine_between(hits_.normal_ws[pixel], to_light) > kMinCosine;
     }
 
     Sum trace(std::size_t pixel, std::uint32_t side, std::uint32_t& hint) const {
@@ -65,13 +67,13 @@ public:
             const glm::dvec2 cell(i % side, i / side);
             const std::uint64_t seed =
                 (static_cast<std::uint64_t>(pixel) << 20) + (static_cast<std::uint64_t>(side) << 12) + i;
-            const glm::dvec2 at = on_disk((cell + random_place(seed)) / static_cast<double>(side)) * size_;
-            const glm::dvec3 toward = middle + axes[0] * at.x + axes[1] * at.y;
-            if (!(glm::dot(toward, hits_.normal_ws[pixel]) > 0.0)) continue;
+            const glm::dvec2 in_square = (cell + random_place(seed)) / static_cast<double>(side);
+            const auto [toward, weight] = area_ ? way_to(pixel, middle, in_square) : way_to_disk(middle, axes, in_square);
+            if (!(weight > 0.0) || !(glm::dot(toward, hits_.normal_ws[pixel]) > 0.0)) continue;
             const std::uint32_t found = world_.occluder(make_ray(point, toward), t_max, triangle, hint, layers);
-            ++sum.rays;
+            sum.rays += weight;
             if (found == kNoTriangle)
-                ++sum.lit;
+                sum.lit += weight;
             else
                 hint = found;
         }
@@ -79,12 +81,31 @@ public:
     }
 
 private:
+    /// A way to the source, and how much of the light comes along it.
+    struct Way {
+        glm::dvec3 toward;
+        double weight;
+    };
+    Way way_to_disk(const glm::dvec3& middle, const std::array<glm::dvec3, 2>& axes, const glm::dvec2& in_square) const {
+        const glm::dvec2 at = on_disk(in_square) * size_;
+        return {middle + axes[0] * at.x + axes[1] * at.y, 1.0};
+    }
+    Way way_to(std::size_t pixel, const glm::dvec3& middle, const glm::dvec2& in_square) const {
+        const SourceShape shape = light_facts(light_.kind).shape;
+        const bool round = shape == SourceShape::disc || shape == SourceShape::sphere;
+        const SourcePlace place = source_place(light_, middle, round ? on_disk(in_square) : 2.0 * in_square - 1.0);
+        const double length = glm::length(place.way_m);
+        return {place.way_m,
+                length > 0.0 ? place.weight * glm::dot(place.way_m, hits_.normal_ws[pixel]) / length : 0.0};
+    }
+
     glm::dvec3 light_rel_m() const { return light_.position_ws_m - world_.origin_ws_m(); }
 
     const TracedWorld& world_;
     const PrimaryHits& hits_;
     const LightItem& light_;
     double size_;
+    bool area_;
 };
 
 /// Whether a few rays leave open what the pixel sees.
@@ -93,13 +114,13 @@ bool undecided(const std::vector<Sum>& few, const glm::uvec2& size_px, const glm
         return few[static_cast<std::size_t>(y) * size_px.x + static_cast<std::size_t>(x)];
     };
     const Sum own = sum(at.x, at.y);
-    if (own.rays == 0 || own.mixed()) return true;
+    if (own.rays == 0.0 || own.mixed()) return true;
     const glm::ivec2 last = glm::ivec2(size_px) - 1;
     const glm::ivec2 from = glm::max(at - kNeighbours_px, glm::ivec2(0)), to = glm::min(at + kNeighbours_px, last);
     for (int y = from.y; y <= to.y; ++y)
         for (int x = from.x; x <= to.x; ++x) {
             const Sum other = sum(x, y);
-            if (other.rays > 0 && (other.mixed() || other.all_lit() != own.all_lit())) return true;
+            if (other.rays > 0.0 && (other.mixed() || other.all_lit() != own.all_lit())) return true;
         }
     return false;
 }
@@ -108,7 +129,7 @@ bool undecided(const std::vector<Sum>& few, const glm::uvec2& size_px, const glm
 
 double source_size(const LightItem& light) {
     if (light.kind == LightKind::directional) return std::tan(static_cast<double>(light.sun_radius_rad));
-    return static_cast<double>(light.source_radius_m);
+    return static_cast<double>(source_extent(light));
 }
 
 glm::dvec2 on_disk(const glm::dvec2& square) {
@@ -150,7 +171,7 @@ SoftTruth ReferenceTracer::trace_source(const PrimaryHits& hits, const LightItem
             sum = tracer.trace(pixel, sampling.side, hint);
             ++sampled;
         }
-        truth.visibility[pixel] = sum.rays == 0 ? 0.0f : static_cast<float>(sum.lit) / static_cast<float>(sum.rays);
+        truth.visibility[pixel] = sum.rays == 0.0 ? 0.0f : static_cast<float>(sum.lit / sum.rays);
     });
     truth.sampled = sampled;
     return truth;

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "gnomon/components.h"
+#include "systems/extract/light_facts.h"
 #include "systems/lighting/kept_visibility.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/request/filter_table.h"
@@ -67,6 +68,7 @@ void SoakWorld::change_light(ecs::Entity light) {
         world_.registry.patch<Light>(light, [&](Light& l) {
             const auto kinds = static_cast<unsigned>(shadow::light_kind_table().size());
             l.kind = static_cast<LightKind>(std::uniform_int_distribution<unsigned>(0, kinds - 1)(random_));
+            if (light_facts(l.kind).area()) l.source_radius_m = 0.1f;
         });
 }
 

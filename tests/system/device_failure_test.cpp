@@ -386,10 +386,14 @@ std::string kind_name(const ::testing::TestParamInfo<LightKind>& param) {
         case LightKind::directional: return "Directional";
         case LightKind::spot: return "Spot";
         case LightKind::point: return "Point";
+        case LightKind::rectangle: return "Rectangle";
+        case LightKind::disc: return "Disc";
+        case LightKind::sphere: return "Sphere";
+        case LightKind::tube: return "Tube";
     }
     return "Unknown";
 }
-INSTANTIATE_TEST_SUITE_P(EachKind, DeviceFailure, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
+INSTANTIATE_TEST_SUITE_P(EachKind, DeviceFailure, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point, LightKind::rectangle),
                          kind_name);
 
 }  // namespace

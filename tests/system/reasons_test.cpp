@@ -214,7 +214,9 @@ TEST_F(ReasonScenes, EveryReasonIsGiven) {
 TEST(Reasons, PointsInInfinityHaveNoFit) {
     SceneSnapshot scene;
     scene.consumers.emplace_back();
-    scene.lights.push_back({.kind = LightKind::directional, .intensity = 1.0f, .has_shadow = true});
+    scene.lights.emplace_back().kind = LightKind::directional;
+    scene.lights[0].intensity = 1.0f;
+    scene.lights[0].has_shadow = true;
     scene.lights[0].shadow.cascades = 1;
     shadow::FitStages stages;
     stages.decide(scene, gl::RecordingDevice::default_info());

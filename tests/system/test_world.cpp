@@ -8,6 +8,7 @@
 #include "engine/math/aabb.h"
 #include "engine/mesh/mesh_topology.h"
 #include "gnomon/components.h"
+#include "systems/extract/light_facts.h"
 
 namespace gnomon {
 namespace {
@@ -86,6 +87,7 @@ ecs::Entity TestWorld::add_light(LightKind kind, const glm::dvec3& at_m, const s
     Light light;
     light.kind = kind;
     if (kind != LightKind::directional) light.range_m = 30.0f;
+    if (light_facts(kind).area()) light.source_radius_m = 0.1f;
     registry.emplace<Transform>(e, {at_m, looking(-at_m)});
     registry.emplace<Light>(e, light);
     registry.emplace<Name>(e, {name});

@@ -27,6 +27,14 @@ LightKind to_kind(assets::LightType type) {
             return LightKind::spot;
         case assets::LightType::point:
             break;
+        case assets::LightType::rectangle:
+            return LightKind::rectangle;
+        case assets::LightType::disc:
+            return LightKind::disc;
+        case assets::LightType::sphere:
+            return LightKind::sphere;
+        case assets::LightType::tube:
+            return LightKind::tube;
     }
     return LightKind::point;
 }
@@ -37,7 +45,10 @@ Light to_light(const assets::LightData& data) {
             .intensity = data.intensity,
             .range_m = data.range_m,
             .inner_cone_rad = data.inner_cone_rad,
-            .outer_cone_rad = data.outer_cone_rad};
+            .outer_cone_rad = data.outer_cone_rad,
+            .source_radius_m = data.radius_m,
+            .width_m = data.width_m,
+            .height_m = data.height_m};
 }
 
 Camera to_camera(const assets::CameraData& data, bool active) {

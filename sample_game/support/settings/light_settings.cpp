@@ -30,6 +30,8 @@ std::optional<LightSettings> settings_of(const ecs::Registry& registry, ecs::Ent
     if (const Light* own = registry.get<Light>(light)) {
         settings.source_radius_m = own->source_radius_m;
         settings.sun_radius_rad = own->sun_radius_rad;
+        settings.width_m = own->width_m;
+        settings.height_m = own->height_m;
     }
     return settings;
 }
@@ -45,7 +47,10 @@ void put_settings(ecs::Registry& registry, ecs::Entity light, const LightSetting
     Light sized = *own;
     sized.source_radius_m = settings.source_radius_m;
     sized.sun_radius_rad = settings.sun_radius_rad;
-    const bool same = own->source_radius_m == sized.source_radius_m && own->sun_radius_rad == sized.sun_radius_rad;
+    sized.width_m = settings.width_m;
+    sized.height_m = settings.height_m;
+    const bool same = own->source_radius_m == sized.source_radius_m && own->sun_radius_rad == sized.sun_radius_rad &&
+                      own->width_m == sized.width_m && own->height_m == sized.height_m;
     if (!same) registry.emplace<Light>(light, sized);
 }
 

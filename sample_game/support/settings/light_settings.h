@@ -15,6 +15,7 @@ namespace gnomon::game {
 /// All settings of one light, from its components.
 struct LightSettings {
     float source_radius_m = 0.0f, sun_radius_rad = 0.0f;  // fields of Light
+    float width_m = 1.0f, height_m = 1.0f;
     LightShadow shadow = {};
     ShadowTuning tuning = {};
     bool operator==(const LightSettings&) const = default;

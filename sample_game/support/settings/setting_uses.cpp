@@ -21,7 +21,11 @@ bool for_sun(Settings, LightKind kind) { return is_sun(kind); }
 bool for_point(Settings, LightKind kind) { return is_point(kind); }
 
 bool for_source(Settings s, LightKind) { return row_of(s).extent == FilterExtent::source; }
-bool for_lamp_source(Settings s, LightKind kind) { return for_source(s, kind) && !for_sun(s, kind); }
+bool for_width(Settings, LightKind kind) { return has_width(kind); }
+bool for_height(Settings, LightKind kind) { return has_height(kind); }
+bool for_lamp_source(Settings s, LightKind kind) {
+    return has_radius(kind) || (for_source(s, kind) && !for_sun(s, kind) && !has_height(kind));
+}
 bool for_sun_source(Settings s, LightKind kind) { return for_source(s, kind) && for_sun(s, kind); }
 
 bool for_size(Settings s, LightKind) { return row_of(s).extent == FilterExtent::size; }
@@ -78,7 +82,9 @@ constexpr std::array kBasic{
     SettingUse{"max_error_px"},
     SettingUse{"narrowest_caster_px"},
     SettingUse{"source_radius_m", for_lamp_source,
-               "a spot or point light with filter pcss, pcss_moments or exact_soft"},
+               "a disc, sphere or tube; a spot or point light with filter pcss, pcss_moments or exact_soft"},
+    SettingUse{"source_width_m", for_width, "a rectangle or tube"},
+    SettingUse{"source_height_m", for_height, "a rectangle"},
     SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments or exact_soft"},
 };
 constexpr std::array kQuality{

@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint32_t kMaxResolution_px = 65536;
 constexpr double kMaxError_px = 1.0e4;
 constexpr double kSliderResolution_px = 4096.0, kSliderError_px = 16.0, kSliderSource_m = 0.5, kSliderSun_deg = 3.0;
+constexpr double kSliderSide_m = 4.0;
 constexpr double kMostSun_deg = 30.0;  // kMostSunRadius_rad
 
 bool set_max_error(LightSettings& settings, std::string_view text) {
@@ -140,11 +141,27 @@ constexpr std::array kSizeRows{
     LightSetting{.key = "source_radius_m",
                  .field = "Light::source_radius_m",
                  .values = "0 ... 1e4 (m)",
-                 .meaning = "radius of a spot's or a point's source; 0: a point",
+                 .meaning = "radius of a lamp's source; 0: a point, or no light from a disc, sphere or tube",
                  .set = set_up_to<Field<&LightSettings::source_radius_m>, static_cast<int>(kMostSourceRadius_m)>,
                  .get = get_float<Field<&LightSettings::source_radius_m>>,
                  .editor = kNumber,
                  .slider_most = kSliderSource_m},
+    LightSetting{.key = "source_width_m",
+                 .field = "Light::width_m",
+                 .values = "above 0 ... 2e4 (m)",
+                 .meaning = "width of a rectangle, or length of a tube",
+                 .set = set_up_to<Field<&LightSettings::width_m>, 2 * static_cast<int>(kMostSourceRadius_m)>,
+                 .get = get_float<Field<&LightSettings::width_m>>,
+                 .editor = kNumber,
+                 .slider_most = kSliderSide_m},
+    LightSetting{.key = "source_height_m",
+                 .field = "Light::height_m",
+                 .values = "above 0 ... 2e4 (m)",
+                 .meaning = "height of a rectangle",
+                 .set = set_up_to<Field<&LightSettings::height_m>, 2 * static_cast<int>(kMostSourceRadius_m)>,
+                 .get = get_float<Field<&LightSettings::height_m>>,
+                 .editor = kNumber,
+                 .slider_most = kSliderSide_m},
     LightSetting{.key = "sun_radius_deg",
                  .field = "Light::sun_radius_rad",
                  .values = "0 ... 30 (degrees)",

@@ -2,6 +2,7 @@
 #define BLENDED_RECEIVER 1
 #include "lighting/lights/blended_surface.glsl"
 #include "lighting/lights/forward_visibility.glsl"
+#include "lighting/lights/reflected_light.glsl"
 #include "lighting/catchers/caught_sum.glsl"
 
 void main() {
@@ -9,11 +10,10 @@ void main() {
     BlendedSurface surface = blended_surface();
     LightSample incoming = light_at(fragment_position_ca);
     colour_out = vec4(0.0);
-    if (incoming.reaches && dot(surface.geometric_normal, incoming.to_light) > 0.0) {
-        float cosine = max(dot(surface.shading_normal, incoming.to_light), 0.0);
-        float falls = luminance(incoming.radiance) * cosine;
+    if (!is_unreached(surface.geometric_normal, incoming)) {
+        float share = falling_share(incoming, surface.shading_normal), falls = luminance(incoming.radiance) * share;
         if (kTinted)
-            colour_out = caught_sum(falls - luminance(arriving(surface, incoming)) * cosine, falls);
+            colour_out = caught_sum(falls - luminance(arriving(surface, incoming)) * share, falls);
         else
             colour_out = caught_sum((1.0 - visible_share(surface)) * falls, falls);
     }

@@ -3,15 +3,15 @@
 #include "lighting/lights/blended_surface.glsl"
 #include "lighting/post/picture_sum.glsl"
 #include "lighting/lights/forward_visibility.glsl"
-#include "lighting/lights/brdf.glsl"
+#include "lighting/lights/reflected_light.glsl"
 
 void main() {
     BlendedSurface surface = blended_surface();
     LightSample incoming = light_at(fragment_position_ca);
     vec3 added = vec3(0.0);
-    if (incoming.reaches && dot(surface.geometric_normal, incoming.to_light) > 0.0)
+    if (!is_unreached(surface.geometric_normal, incoming))
         added = arriving(surface, incoming) *
-                brdf_times_cosine(surface.colour.rgb, material.metallic, material.roughness, surface.shading_normal,
-                                  unit_or(to_camera(fragment_position_ca), camera.back.xyz), incoming.to_light);
+                reflected_share(incoming, surface.colour.rgb, material.metallic, material.roughness, surface.shading_normal,
+                                unit_or(to_camera(fragment_position_ca), camera.back.xyz));
     colour_out = vec4(in_picture(added * surface.colour.a), 0.0);
 }

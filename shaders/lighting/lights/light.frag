@@ -9,7 +9,7 @@
 #include VISIBLE_SHARE
 #include SHADOW_TINT
 #include "shadow/lookup/shadow_layers.glsl"
-#include "lighting/lights/brdf.glsl"
+#include "lighting/lights/reflected_light.glsl"
 #include "lighting/post/picture_sum.glsl"
 layout(location = 0) out vec4 colour_out;
 
@@ -27,7 +27,7 @@ void main() {
     vec3 arrives = visible * incoming.radiance;
     if (kTinted && visible > 0.0 && takes_shadow(surface.shadow_layers))
         arrives *= shadow_tint(surface.position_ca, surface.geometric_normal, surface.error_m);
-    vec3 reflected = brdf_times_cosine(surface.colour, surface.metallic, surface.roughness, surface.shading_normal,
-                                       surface.to_viewer, incoming.to_light);
+    vec3 reflected = reflected_share(incoming, surface.colour, surface.metallic, surface.roughness, surface.shading_normal,
+                                     surface.to_viewer);
     colour_out = vec4(visible > 0.0 ? in_picture(arrives * reflected) : vec3(0.0), 0.0);
 }

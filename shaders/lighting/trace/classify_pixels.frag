@@ -17,6 +17,10 @@ int verdict_of(ivec2 pixel, Surface surface) {
     SurfacePlace place = unpacked_place(surface.place);
     if (!takes_shadow(received_layers(instance_record(place.instance)))) return kCertainlyLit;
     SeenPlace seen = seen_place(pixel, place);
+#if LIGHT_AREA
+    // The map sees from the source's middle: it is certain of nothing that turns away from it.
+    if (!(dot(surface.geometric_normal, incoming.to_light) > 0.0)) return kUncertain;
+#endif
     return certainty(seen.position_ca, seen.error_m, receiver_of(place));
 }
 

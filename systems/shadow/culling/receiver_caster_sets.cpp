@@ -136,10 +136,11 @@ private:
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
-        const bool cone = light_facts(light_.kind).cone;
+        const bool cone = light_facts(light_.kind).cone, half_space = light_facts(light_.kind).half_space;
         if (cone) *end = {-back, glm::dot(back, lamp)};
+        if (half_space) *end = shone_side(light_);
         ReceiverHull seen, receiver_hull;
-        const IndexRange range = clip_candidates(std::span(planes).first(cone ? 5 : 4), core, seen);
+        const IndexRange range = clip_candidates(std::span(planes).first(cone || half_space ? 5 : 4), core, seen);
         if (range.count > 0) receiver_hull = frustum_hull(lamp, opening, points(range), out_.outlines, scratch_);
         receiver_hull.origin_ws_m = lamp;
         receiver_hull.axes = opening.axes;
@@ -191,6 +192,23 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, con
     return std::max(highest_m, 0.0) * static_cast<double>(filter.sun_radius_tan);
 }
 
+/// Marks the casters of an area light that touch the box around its source and all receivers. Every way from one to the
+/// other lies in it.
+void mark_around_source(const SceneSnapshot& scene, const LightItem& light, std::span<const glm::dvec3> points_ws,
+                        IndexSet& marks) {
+    const double reach_m = static_cast<double>(source_extent(light));
+    math::Aabb around{light.position_ws_m - reach_m, light.position_ws_m + reach_m};
+    for (const glm::dvec3& point : points_ws) around = math::merged(around, {point, point});
+    visit_instances(
+        scene,
+        [&](const math::Aabb& box) {
+            return math::is_empty(math::intersection(around, box)) ? Overlap::outside : Overlap::partial;
+        },
+        [&](std::uint32_t i) {
+            if (casts_under(light, scene.instances[i])) marks.add(i);
+        });
+}
+
 /// Appends the casters that touch the volume between the light and any of its receiver hulls.
 IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request,
                           IndexRange hulls, SetScratch& scratch, ReceiverCasterSets& out) {
@@ -217,6 +235,11 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
                 if (casts_under(light, scene.instances[i])) scratch.marks.add(i);
             });
     }
+    if (has_size && light_facts(light.kind).area())
+        for (std::uint32_t b = 0; b < hulls.count; ++b) {
+            const IndexRange points = out.hulls[hulls.first + b].receiver_points;
+            if (points.count > 0) mark_around_source(scene, light, slice(out.receiver_points_ws, points), scratch.marks);
+        }
     const std::size_t first = out.caster_items.size();
     scratch.marks.for_each([&](std::uint32_t i) { out.caster_items.push_back(i); });
     return since(first, out.caster_items.size());

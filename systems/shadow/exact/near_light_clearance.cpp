@@ -34,6 +34,7 @@ public:
           gpu_(in.gpu),
           light_(in.scene.lights[light]),
           radius_m_(static_cast<double>(in.drawn.lights[light].request.map.filtering.source_radius_m)),
+          within_m_(light_facts(light_.kind).area() ? radius_m_ : 0.0),
           least_m_(kClearance_radii * radius_m_) {
         // Faces without a view are looked up as well: nothing may stand before them.
         const bool cube = map_texture(light_, in.drawn.lights[light].request) == gl::TextureKind::cube;
@@ -63,7 +64,7 @@ public:
             if (!casts_under(light_, scene_.instances[i])) return;
             visit_triangles(gpu_, scene_.instances[i], light_.position_ws_m, [this](const Corners& c) {
                 const double distance_m = distance_to(c);
-                if (distance_m < least_m_ && counts(c)) least_m_ = distance_m;
+                if (distance_m < least_m_ && (distance_m < within_m_ || counts(c))) least_m_ = distance_m;
             });
         });
         return least_m_;
@@ -114,7 +115,9 @@ private:
     const SceneSnapshot& scene_;
     const GpuScene& gpu_;
     const LightItem& light_;
-    double radius_m_, least_m_;
+    double radius_m_;
+    double within_m_;  // casters nearer than this count in any case: places of an area light may lie before them
+    double least_m_;
     std::array<Opening, kMaxViews> openings_;
     std::size_t count_ = 0;
 };

@@ -33,11 +33,22 @@ std::string_view tint_file(TintLookup tint) {
 
 }  // namespace
 
+namespace {
+
+bool is_area(std::string_view kind_define) {
+    return kind_define == "LIGHT_RECTANGLE" || kind_define == "LIGHT_DISC" || kind_define == "LIGHT_SPHERE" ||
+           kind_define == "LIGHT_TUBE";
+}
+
+}  // namespace
+
 std::vector<std::string> program_defines(const ShaderKey& row) {
     const bool is_shadowed = !row.filter_file.empty();
     std::vector<std::string> defines;
-    for (const std::string_view kind : {"LIGHT_DIRECTIONAL", "LIGHT_SPOT", "LIGHT_POINT"})
+    for (const std::string_view kind : {"LIGHT_DIRECTIONAL", "LIGHT_SPOT", "LIGHT_POINT", "LIGHT_RECTANGLE",
+                                        "LIGHT_DISC", "LIGHT_SPHERE", "LIGHT_TUBE"})
         defines.push_back(flag(kind, kind == row.kind_define));
+    defines.push_back(flag("LIGHT_AREA", is_area(row.kind_define)));
     defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
     defines.push_back(flag("SHADOW_DEPTHS", row.depths));
     defines.push_back(flag("SHADOW_MOMENTS", row.moments));
@@ -48,6 +59,7 @@ std::vector<std::string> program_defines(const ShaderKey& row) {
     defines.push_back(flag("SHADOW_MANUAL_BIAS", row.manual_bias));
     defines.push_back(flag("SHADOW_ANTIALIAS", row.antialias));
     defines.push_back(flag("SHADOW_SPREAD", row.spread));
+    defines.push_back(flag("SHADOW_OF_MIDDLE", is_shadowed && !row.whole_source));
     defines.push_back(file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"));
     const std::string reading(map_reading(row));
     defines.push_back(file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_" + reading + ".glsl"));
@@ -62,6 +74,7 @@ std::vector<std::string> shared_defines(const SharedRow& row) {
     return {file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_shared.glsl"),
             file("SHADOW_CUBE_MAP", "shadow/lookup/maps/cube_shared.glsl"),
             file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"),
+            flag("LIGHT_AREA", false),
             flag("SHADOW_ANTIALIAS", row.antialias),
             flag("SHADOW_SPREAD", row.antialias),
             flag("SHADOW_LINEAR_TAPS", row.linear_taps), "SHADOW_REACH_TEXEL " + row.reach_texel};

@@ -28,6 +28,7 @@ struct ShaderKey {
     bool antialias = false;    // visibility is a share of the pixel's area: AreaShares::marked
     bool spread = false;       // taps and rays of a source begin all over the pixel's area: AreaShares::spread
     TintLookup tint = TintLookup::none;  // read by programs that add light to a picture alone
+    bool whole_source = false;  // the filter sees all of an area light; others see its middle alone
     bool operator==(const ShaderKey&) const = default;
 };
 

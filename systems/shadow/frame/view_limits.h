@@ -10,4 +10,8 @@ namespace gnomon::shadow {
 inline constexpr std::uint32_t kMaxViews = 8;
 static_assert(kMaxViews >= kMaxCascades);
 
+/// View record that carries an area light's source in place of a view: kSourceView of
+/// shaders/shadow/lookup/source_place.glsl. Cubes leave it free.
+inline constexpr std::uint32_t kSourceView = kMaxViews - 1;
+
 }  // namespace gnomon::shadow

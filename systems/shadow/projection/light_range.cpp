@@ -1,10 +1,17 @@
 #include "systems/shadow/projection/light_range.h"
 
+#include <glm/geometric.hpp>
+
 #include "systems/extract/light_facts.h"
 
 namespace gnomon::shadow {
 
 using math::Overlap;
+
+math::Plane shone_side(const LightItem& light) {
+    const glm::dvec3& back = light.rotation_ws[2];
+    return {-back, glm::dot(back, light.position_ws_m)};
+}
 
 LightReach::LightReach(const LightItem& light) {
     if (light_facts(light.kind).parallel) return;
@@ -15,15 +22,18 @@ LightReach::LightReach(const LightItem& light) {
     }
     if (light_facts(light.kind).cone)
         cone_ = math::planes_around({light.position_ws_m, -light.rotation_ws[2], light.outer_cone_rad});
+    if (light_facts(light.kind).half_space) side_ = shone_side(light);
 }
 
 Overlap LightReach::overlap(const math::Aabb& box) const {
     if (range_m_ && math::overlap_ball(position_ws_m_, *range_m_, box) == Overlap::outside) return Overlap::outside;
     if (cone_ && math::overlap(*cone_, box) == Overlap::outside) return Overlap::outside;
-    return range_m_ || cone_ ? Overlap::partial : Overlap::inside;
+    if (side_ && math::overlap(std::span(&*side_, 1), box) == Overlap::outside) return Overlap::outside;
+    return range_m_ || cone_ || side_ ? Overlap::partial : Overlap::inside;
 }
 
 std::span<const math::Plane> LightReach::cone() const {
+    if (side_) return std::span(&*side_, 1);
     if (!cone_) return {};
     return *cone_;
 }

@@ -11,7 +11,10 @@
 
 namespace gnomon::shadow {
 
-/// Volume that a light can reach without occluders: its range, and a spot's cone.
+/// Returns the half-space into which a light shines that does so from one side of its plane.
+math::Plane shone_side(const LightItem& light);
+
+/// Volume that a light can reach without occluders: its range, and a spot's cone or the side of its plane.
 class LightReach {
 public:
     explicit LightReach(const LightItem& light);
@@ -22,7 +25,7 @@ public:
     math::Aabb clipped(const math::Aabb& box) const { return range_m_ ? math::intersection(box, around_) : box; }
     /// Returns the range's bounding box; infinite for an unlimited one.
     math::Aabb bounds() const { return range_m_ ? around_ : math::kEverywhere; }
-    /// Returns planes around a spot's cone; none for other lights.
+    /// Returns planes around a spot's cone, or the plane before which a light shines from one side; none for others.
     std::span<const math::Plane> cone() const;
 
 private:
@@ -30,6 +33,7 @@ private:
     std::optional<double> range_m_;
     math::Aabb around_;
     std::optional<std::array<math::Plane, math::kConeSides + 1>> cone_;
+    std::optional<math::Plane> side_;  // where the light shines from one side of its plane
 };
 
 }  // namespace gnomon::shadow

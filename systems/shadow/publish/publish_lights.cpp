@@ -100,6 +100,18 @@ glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer
     return with_w(ahead, glm::dot(ahead, consumer.position_ws_m - fitted.position_ws_m));
 }
 
+/// Writes what an area light's source is like: its axes, and how far it reaches along them, metres. A round source has
+/// its radius in each place but a tube's length.
+void source_shape_record(const LightItem& light, LightRecord& record) {
+    const SourceShape shape = light_facts(light.kind).shape;
+    const double radius_m = light.source_radius_m;
+    const bool wide = shape == SourceShape::rectangle || shape == SourceShape::tube;
+    ViewRecord& source = record.views[kSourceView];
+    source.axis_u = with_w(light.rotation_ws[0], wide ? 0.5 * static_cast<double>(light.width_m) : radius_m);
+    source.axis_v = with_w(light.rotation_ws[1],
+                           shape == SourceShape::rectangle ? 0.5 * static_cast<double>(light.height_m) : radius_m);
+}
+
 /// Returns the record of a light, with or without a map.
 /// `lamp_ws_m`: position from which shadows of a local light are computed.
 LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, const ConsumerItem& fitted,
@@ -122,6 +134,7 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
         const glm::dquat& turn = cube_turn();
         record.cone = with_w({turn.x, turn.y, turn.z}, turn.w);
     }
+    if (light_facts(light.kind).area()) source_shape_record(light, record);
     return record;
 }
 
@@ -205,6 +218,11 @@ void set_area_shares(const LightItem& light, ShadowFilter filter, ShaderKey& row
     row.spread = light.shadow.antialias && shares == AreaShares::spread;
 }
 
+/// Returns whether a filter sees all of an area light's source.
+bool sees_whole_source(const LightItem& light, ShadowFilter filter) {
+    return light_facts(light.kind).area() && filter_row(filter).width == FilterWidth::source;
+}
+
 /// Publishes lights that use rays. Their maps, if any, classify pixels first. The maps are left out for cameras that
 /// they are not fitted to: these may see what is not in them.
 void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const ConsumerItem& consumer,
@@ -222,6 +240,7 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
                    .rays = true,
                    .ray_masks = static_cast<bool>(in.rays.masks)};
         set_area_shares(light, request.map.filter, out.row);
+        out.row.whole_source = sees_whole_source(light, request.map.filter);
         out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!in.ray_tints.empty() && in.ray_tints[i] && !in.drawn.statuses[i].has_lost_tint()) {
@@ -269,9 +288,12 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     add_view(light, in.drawn, v, out.plain.accuracy);
     out.row.ray_masks = out.row.triangles && in.masked;
     // A map that serves one tap has none.
-    if (out.row.filter_file == filter_row(request.map.filter).file)
+    if (out.row.filter_file == filter_row(request.map.filter).file) {
         set_area_shares(light, request.map.filter, out.row);
-    if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
+        out.row.whole_source = sees_whole_source(light, request.map.filter);
+    }
+    const auto most_views = static_cast<std::int32_t>(light_facts(light.kind).area() ? kSourceView : kMaxViews);
+    if (out.record.options.x < most_views)
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;
     if (map_texture(light, request) != gl::TextureKind::cube)

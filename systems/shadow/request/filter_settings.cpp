@@ -49,7 +49,7 @@ void take_spread(const Kernel& kernel, float most_texel, FilterSettings& filter)
 /// Takes the size of the light's source. The width of its penumbra depends on the casters' distances; here it has its
 /// upper limit, most_texel.
 void take_source(const LightItem& light, float most_texel, FilterSettings& filter) {
-    const float size = source_size(light);
+    const float size = source_extent(light);
     const LightFacts& facts = light_facts(light.kind);
     const float taken = is_length(size) ? std::min(size, facts.most_source_size) : 0.0f;
     if (facts.parallel)
@@ -72,8 +72,6 @@ float border_texel(const FilterSettings& filter, float penumbra_texel) {
 bool needs_distances(const FilterSettings& filter) {
     return filter.source_radius_m > 0.0f || filter.sun_radius_tan > 0.0f;
 }
-
-float source_size(const LightItem& light) { return light.*light_facts(light.kind).source_size; }
 
 FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px) {
     return filter_settings(filter_row(light.shadow.filter), light, resolution_px);

@@ -22,9 +22,6 @@ FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std
 /// Returns the effective settings of the light's own filter.
 FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px);
 
-/// Returns the size of the light's source: a sun's in radians, others' in metres. 0, negative or NaN: a point.
-float source_size(const LightItem& light);
-
 /// Returns true if the map must contain the true distances of casters. Otherwise casters before its depth range are
 /// flattened onto the near plane.
 bool needs_distances(const FilterSettings& filter);

@@ -18,6 +18,14 @@ constexpr LightKindRow kKindRows[] = {
      add_spot_frusta},
     {LightKind::point, "point", "LIGHT_POINT", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point,
      add_cube_frusta},
+    {LightKind::rectangle, "rectangle", "LIGHT_RECTANGLE", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6,
+     fit_point, add_cube_frusta},
+    {LightKind::disc, "disc", "LIGHT_DISC", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point,
+     add_cube_frusta},
+    {LightKind::sphere, "sphere", "LIGHT_SPHERE", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point,
+     add_cube_frusta},
+    {LightKind::tube, "tube", "LIGHT_TUBE", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point,
+     add_cube_frusta},
 };
 
 constexpr bool kinds_are_in_order() {

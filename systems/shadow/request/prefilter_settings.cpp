@@ -38,7 +38,7 @@ void set_footprint(PrefilterSettings& result) {
 /// Returns the mipmap levels that the widest penumbra needs; 1 without FilterWidth::source or without a source's size.
 /// The size has the limits of filter_settings().
 std::uint32_t penumbra_levels(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
-    const float size = source_size(light);
+    const float size = source_extent(light);
     const bool soft = row.width == FilterWidth::source && std::isfinite(size) && size > 0.0f;
     if (!soft) return 1;
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);

@@ -163,6 +163,47 @@ TEST(SceneImport, ReadsPunctualLights) {
     EXPECT_EQ(scene.nodes.at(2).light, 2);
 }
 
+TEST(SceneImport, ReadsAreaLightsAfterPunctualOnes) {
+    GltfBuilder builder = with_lights({{{"type", "point"}}});
+    builder.doc["extensionsUsed"].push_back("EXT_lights_area");
+    builder.doc["extensions"]["EXT_lights_area"]["lights"] = {
+        {{"type", "rect"}, {"size", 0.5}, {"rect", {{"aspect", 3}}}, {"intensity", 2000}, {"color", {1, 0.5, 0}}},
+        {{"type", "disk"}, {"size", 0.5}, {"name", "panel"}},
+        {{"type", "sphere"}, {"extras", {{"shadow", false}}}},
+        {{"type", "tube"}, {"size", 1.2}, {"tube", {{"radius", 0.02}}}}};
+    for (int i = 0; i < 4; ++i) builder.push("nodes", {{"extensions", {{"EXT_lights_area", {{"light", i}}}}}});
+    const SceneData scene = loaded(builder.gltf());
+    ASSERT_EQ(scene.lights.size(), 5U);
+    EXPECT_EQ(scene.lights[1].type, assets::LightType::rectangle);
+    EXPECT_EQ(scene.lights[1].width_m, 1.5F);
+    EXPECT_EQ(scene.lights[1].height_m, 0.5F);
+    EXPECT_EQ(scene.lights[1].intensity, 2000.0F);
+    EXPECT_EQ(scene.lights[1].colour, glm::vec3(1, 0.5, 0));
+    EXPECT_EQ(scene.lights[2].type, assets::LightType::disc);
+    EXPECT_EQ(scene.lights[2].radius_m, 0.25F);
+    EXPECT_EQ(scene.lights[2].name, "panel");
+    EXPECT_EQ(scene.lights[3].type, assets::LightType::sphere);
+    EXPECT_EQ(scene.lights[3].radius_m, 0.5F);
+    EXPECT_FALSE(scene.lights[3].casts_shadow);
+    EXPECT_EQ(scene.lights[4].type, assets::LightType::tube);
+    EXPECT_EQ(scene.lights[4].width_m, 1.2F);
+    EXPECT_EQ(scene.lights[4].radius_m, 0.02F);
+    EXPECT_EQ(scene.nodes.at(0).light, 0);
+    EXPECT_EQ(scene.nodes.at(4).light, 4);
+}
+
+TEST(SceneImport, TakesAnAreaLightWithoutASizeAsOneThatShowsNothing) {
+    GltfBuilder builder;
+    builder.doc["extensionsUsed"] = {"EXT_lights_area"};
+    builder.doc["extensions"]["EXT_lights_area"]["lights"] = {{{"type", "rect"}, {"size", -1}}};
+    builder.push("nodes", {{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}});
+    const SceneData scene = loaded(builder.gltf());
+    EXPECT_GT(scene.lights.at(0).height_m, 0.0F);
+    EXPECT_LT(scene.lights.at(0).height_m, 1e-5F);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_NE(scene.warnings[0].find("light.size"), std::string::npos);
+}
+
 TEST(SceneImport, LetsANodeOverrideTheShadowOfItsLightAlone) {
     GltfBuilder builder = with_lights({{{"type", "point"}, {"name", "lamp"}}});
     json second = builder.doc["nodes"][0];

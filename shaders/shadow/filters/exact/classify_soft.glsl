@@ -21,7 +21,7 @@ bool is_held(SheetPlace place, SourceCone cone, float reach_texel) {
     float aside = min(min(low.x, low.y), min(high.x, high.y)) - place.off_texel - kConeSlack_texel;
     if (kIsSun) return light.moments.x > 0.0 && reach_texel <= min(aside, light.spread.w);
     float leaves = min(place.depth - place.error + max(aside, 0.0) / cone.texels, 1.0);
-    float radius_m = light.radiance.w, z_m = cone.alpha_beta.y / (leaves - cone.alpha_beta.x);
+    float radius_m = cone.radius_m, z_m = cone.alpha_beta.y / (leaves - cone.alpha_beta.x);
     return aside > 0.0 && (z_m + radius_m) * cone.stretch + radius_m < light.moments.y * (1.0 - kConeRounding);
 }
 

@@ -6,6 +6,9 @@
 #if SHADOW_SPREAD
 #include "shadow/filters/area_spread.glsl"
 #endif
+#if LIGHT_AREA
+#include "shadow/filters/exact/source_rays.glsl"
+#else
 
 // Returns the share of rays that reach the light, among rays that leave the surface along `normal`. It ignores `reach`,
 // which bounds the ray to the light's middle alone. SHADOW_SPREAD: each ray begins at a place of its own.
@@ -32,6 +35,7 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
     }
     return rays > 0 ? float(lit) / float(rays) : 0.0;
 }
+#endif
 
 #if SHADOW_SHEETS
 #include "shadow/filters/exact/classification.glsl"

@@ -3,6 +3,7 @@
 const float kMostStretch = 2.5;   // C++ twin: systems/shadow/request/occluder_pyramid.h
 struct SourceCone {
     bool is_known;
+    float radius_m;       // size of a lamp's source as a disk that faces the place
     float texels;         // most of its radius per unit of depth
     float stretch;        // how much longer the way is than its part along the view's axis
     float steepest;       // see ends_of_texel()
@@ -10,16 +11,31 @@ struct SourceCone {
     vec2 alpha_beta;      // depth = alpha + beta / distance along the axis; of a lamp
 };
 
+// Returns the radius of the disk in the light's middle that hides all of the source from a place at that distance. An area
+// light lies in a ball around its middle: the cone that touches the ball holds it. Within the ball there is none.
+float facing_radius_m(float distance_m) {
+    float radius_m = light.radiance.w;
+#if LIGHT_AREA
+    float share = radius_m / max(distance_m, 1e-30);
+    return radius_m / sqrt(max(1.0 - share * share, 1e-12)) * (1.0 + 1e-5);
+#else
+    return radius_m;
+#endif
+}
+
 // Returns the cone to a lamp. The source faces the place. Away from the axis its picture is therefore longer toward it
 // by 1 / cos, and its nearer half stands nearer than its middle.
 SourceCone lamp_cone(ViewRecord view, vec2 tangent, float z_m) {
-    float radius_m = light.radiance.w, stretch = sqrt(1.0 + dot(tangent, tangent));
+    float stretch = sqrt(1.0 + dot(tangent, tangent)), radius_m = facing_radius_m(z_m * stretch);
     float nearer = radius_m * sqrt(max(1.0 - 1.0 / (stretch * stretch), 0.0)) / z_m;
     float wider = stretch / (1.0 - nearer), texel = min(view.axis_u.w, view.axis_v.w);
+#if LIGHT_AREA
+    wider *= radius_m / light.radiance.w;   // so that kMostStretch bounds all by which the cone is wider
+#endif
     vec2 alpha_beta = vec2(view.numeric.z, view.axis_back.w);
-    float per_stretch = radius_m / (alpha_beta.y * texel);
+    float per_stretch = light.radiance.w / (alpha_beta.y * texel);
     bool is_known = z_m > 0.0 && nearer < 1.0 && wider < kMostStretch;
-    return SourceCone(is_known, per_stretch * wider, stretch, 1.0 / (per_stretch * kMostStretch), max(view.axis_u.w, view.axis_v.w),
+    return SourceCone(is_known, radius_m, per_stretch * wider, stretch, 1.0 / (per_stretch * kMostStretch), max(view.axis_u.w, view.axis_v.w),
                       alpha_beta);
 }
 
@@ -43,5 +59,5 @@ SourceCone source_cone(SheetPlace place, vec3 position_ca) {
     if (!kIsSun) return cone_to_lamp(place, position_ca);
     vec2 texels = sun_source_texel(light.views[place.view]);
     float most = max(texels.x, texels.y);
-    return SourceCone(true, most, 1.0, 1.0 / most, 0.0, vec2(0.0));
+    return SourceCone(true, 0.0, most, 1.0, 1.0 / most, 0.0, vec2(0.0));
 }

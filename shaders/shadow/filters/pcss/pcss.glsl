@@ -56,11 +56,15 @@ float area_radius_texel(ShadowPoint point) {
 }
 #endif
 
+#if LIGHT_AREA
+#include "shadow/filters/pcss/source_on_map.glsl"
+#else
 // Returns a place of the disk as texels from the receiver, at depth 1 of the cone.
 vec2 on_map(ShadowPoint point, vec2 disk) {
     float stretch = 1.0 / (source_stretch(point.tangent) + 1.0);
     return point.source_texel * (disk + point.tangent * (dot(point.tangent, disk) * stretch));
 }
+#endif
 
 // Returns how far, in depth, what is stored there stands before the receiver. 0: it is not above the receiver's plane.
 float stands_before(ShadowPoint point, vec2 place, vec2 offset_texel) {
@@ -138,6 +142,9 @@ float lit_by_votes(ShadowPoint point, float radius_texel, bool asked) {
 }
 
 float shadow_filter(ShadowPoint point) {
+#if LIGHT_AREA
+    map_source = source_on_map(point);
+#endif
     vec2 place = shadow_place(point);
     vec2 seed = shadow_seed(point);
     float texels = max(point.source_texel.x, point.source_texel.y) * source_stretch(point.tangent);

@@ -51,9 +51,9 @@ ShaderKey shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl"
 ShaderKey full_row() {
     ShaderKey row = shadowed_row();
     auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
-           masks, footprint, antialias, spread, tint] = row;  // all members: another one does not compile
+           masks, footprint, antialias, spread, tint, whole_source] = row;  // all members: another one does not compile
     for (bool* flag : {&fades, &depths, &manual_bias, &triangles, &sheets, &moments, &rays, &masks, &footprint,
-                       &antialias, &spread})
+                       &antialias, &spread, &whole_source})
         *flag = true;
     tint = TintLookup::layers;
     return row;
@@ -74,7 +74,7 @@ TEST(ShaderKey, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
     for (bool ShaderKey::*flag : {&ShaderKey::fades, &ShaderKey::depths, &ShaderKey::manual_bias,
                                    &ShaderKey::triangles, &ShaderKey::sheets, &ShaderKey::moments, &ShaderKey::rays,
                                    &ShaderKey::ray_masks, &ShaderKey::footprint, &ShaderKey::antialias,
-                                   &ShaderKey::spread}) {
+                                   &ShaderKey::spread, &ShaderKey::whole_source}) {
         ShaderKey row = shadowed_row();
         row.*flag = true;
         EXPECT_NE(program_defines(row), least);

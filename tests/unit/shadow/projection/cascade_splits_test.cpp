@@ -20,6 +20,13 @@ CascadeSplitDistances ends_of(const ShadowTuning::Cascades& tuning, std::uint32_
     return cascade_split_distances(tuning, count, whole, perspective, receivers);
 }
 
+LightItem sun_of(const LightShadow& shadow, const ShadowTuning::Cascades& cascades = {}) {
+    LightItem sun;
+    sun.shadow = shadow;
+    sun.tuning.cascades = cascades;
+    return sun;
+}
+
 TEST(Splits, UniformOnesAreEquallyLong) {
     const CascadeSplitDistances ends = ends_of({.splits = CascadeSplits::uniform}, 4, {2.0, 10.0});
     for (int i = 0; i <= 4; ++i) EXPECT_DOUBLE_EQ(ends[i], 2.0 + 2.0 * i);
@@ -49,7 +56,7 @@ TEST(Splits, AFlatViewKnowsNoLogarithm) {
 
 TEST(Splits, ManualOnesAreTakenAndBoundedByWhatIsSeen) {
     const ShadowTuning::Cascades tuning{.splits = CascadeSplits::manual, .split_m = {5.0f, 15.0f, 400.0f}};
-    EXPECT_EQ(cascade_count({.tuning = {.cascades = tuning}}, 2), 4u);
+    EXPECT_EQ(cascade_count(sun_of({}, tuning), 2), 4u);
     const CascadeSplitDistances ends = ends_of(tuning, 4, {1.0, 100.0});
     EXPECT_EQ(ends[1], 5.0);
     EXPECT_EQ(ends[2], 15.0);
@@ -89,7 +96,7 @@ TEST(Splits, AbsurdWishesAreNotTaken) {
     EXPECT_FALSE(manual({-1.0f}));
     EXPECT_FALSE(manual({kFloatNan}));
     EXPECT_FALSE(manual({1.0f, kFloatInfinity}));
-    EXPECT_EQ(cascade_count({.shadow = {.cascades = 99}}, 4), 8u);
+    EXPECT_EQ(cascade_count(sun_of({.cascades = 99}), 4), 8u);
     EXPECT_EQ(cascade_count({}, 4), 4u);
 }
 
@@ -111,7 +118,7 @@ TEST(Splits, EndsNeverFallAndStartAndEndWithTheWholeWhateverIsAsked) {
             receivers.push_back({at, at + number(0.0, 1.0) * whole.highest});
         }
         const std::uint32_t count =
-            cascade_count({.tuning = {.cascades = tuning}}, 1 + static_cast<std::uint32_t>(round) % 8);
+            cascade_count(sun_of({}, tuning), 1 + static_cast<std::uint32_t>(round) % 8);
         const CascadeSplitDistances ends = cascade_split_distances(tuning, count, whole, round % 3 != 0, receivers);
         EXPECT_EQ(ends[0], whole.lowest);
         EXPECT_EQ(ends[count], whole.highest);

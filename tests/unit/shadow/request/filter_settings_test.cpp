@@ -14,7 +14,10 @@ constexpr std::uint32_t kMap_px = 1024;
 
 /// A light of that filter.
 LightItem of(ShadowFilter filter, const ShadowTuning::Kernel& kernel = {}) {
-    return {.shadow = {.filter = filter}, .tuning = {.kernel = kernel}};
+    LightItem light;
+    light.shadow.filter = filter;
+    light.tuning.kernel = kernel;
+    return light;
 }
 /// One whose source has that size, whichever its kind.
 LightItem sized(LightKind kind, float size) {

@@ -53,7 +53,11 @@ struct Surface {
     double weight;  // of the blurred texels
 };
 
-LightItem tuned(const ShadowTuning::Moments& moments) { return {.tuning = {.moments = moments}}; }
+LightItem tuned(const ShadowTuning::Moments& moments) {
+    LightItem light;
+    light.tuning.moments = moments;
+    return light;
+}
 
 /// One filter in one format.
 class Store {
@@ -303,7 +307,9 @@ TEST(PrefilterSettings, HasALevelForEveryPenumbraOfASourceWithASizeAndNoMoreThan
     EXPECT_EQ(prefilter_settings(soft, {}, 1024).levels, 1u);
     EXPECT_EQ(prefilter_settings(soft, tuned({.levels = 3}), 1024).levels, 3u);
     for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
-        LightItem light{.kind = kind, .source_radius_m = 0.02f, .sun_radius_rad = 0.02f};
+        LightItem light;
+        light.kind = kind;
+        light.source_radius_m = light.sun_radius_rad = 0.02f;
         for (const std::uint32_t size : {16u, 64u, 512u, 1024u, 4096u}) {
             const PrefilterSettings demand = prefilter_settings(soft, light, size);
             const float widest = filter_settings(soft, light, size).most_spread_texel;

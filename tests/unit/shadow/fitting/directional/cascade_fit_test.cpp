@@ -36,8 +36,9 @@ protected:
 
 TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneItFadesInto) {
     RandomScene random(print_seed());
-    const double margin =
-        static_cast<double>(filter_settings({.shadow = {.filter = ShadowFilter::pcf_grid}}, 512).widest_texel) / 512.0;
+    LightItem grid;
+    grid.shadow.filter = ShadowFilter::pcf_grid;
+    const double margin = static_cast<double>(filter_settings(grid, 512).widest_texel) / 512.0;
     int points = 0, fading = 0;
     for (int round = 0; round < 150; ++round) {
         SceneSnapshot scene = scene_of(random);
@@ -77,8 +78,9 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
 
 TEST_P(CascadeFitTest, AHistoryOfAnythingLosesNoPoint) {
     RandomScene random(print_seed());
-    const double margin =
-        static_cast<double>(filter_settings({.shadow = {.filter = ShadowFilter::pcf_grid}}, 512).widest_texel) / 512.0;
+    LightItem grid;
+    grid.shadow.filter = ShadowFilter::pcf_grid;
+    const double margin = static_cast<double>(filter_settings(grid, 512).widest_texel) / 512.0;
     History history;
     int points = 0;
     for (int round = 0; round < 100; ++round) {
