@@ -3,220 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_limits.h"
+#include "engine/assets/gltf_shape_rows.h"
 
 namespace gnomon::assets::gltf {
 namespace {
 
 using nlohmann::json;
 
-enum class Kind : std::uint8_t { object, list, text, boolean, number, integer, numbers, reference, choice };
-enum class Need : std::uint8_t { optional, required };
-
-/// Rule for one property. `path` is a JSON pointer with * for every element or member.
-struct Row {
-    std::string_view path;
-    Kind kind;
-    Need need = Need::optional;
-    std::size_t size = 0;          // list: maximum length; numbers: exact length; integer: largest value
-    std::string_view target = {};  // reference: the collection; choice: the words, each between bars
-};
-
-constexpr std::size_t kMaxInt = std::numeric_limits<std::int32_t>::max();
-constexpr std::size_t kMaxSize = std::size_t{1} << 53;  // exact in a double
-constexpr auto kRequired = Need::required;
-constexpr auto kOptional = Need::optional;
-
-// Parents come before their members, so that the first error is the clearest.
-constexpr Row kRows[] = {
-    {"/asset", Kind::object, kRequired},
-    {"/asset/version", Kind::text, kRequired},
-    {"/extensionsUsed", Kind::list, kOptional, kMaxItems},
-    {"/extensionsUsed/*", Kind::text},
-    {"/extensionsRequired", Kind::list, kOptional, kMaxItems},
-    {"/extensionsRequired/*", Kind::text},
-
-    {"/buffers", Kind::list, kOptional, kMaxItems},
-    {"/buffers/*", Kind::object},
-    {"/buffers/*/byteLength", Kind::integer, kRequired, kMaxSize},
-    {"/buffers/*/uri", Kind::text},
-    {"/bufferViews", Kind::list, kOptional, kMaxItems},
-    {"/bufferViews/*", Kind::object},
-    {"/bufferViews/*/buffer", Kind::reference, kRequired, 0, "buffers"},
-    {"/bufferViews/*/byteOffset", Kind::integer, kOptional, kMaxSize},
-    {"/bufferViews/*/byteLength", Kind::integer, kRequired, kMaxSize},
-    {"/bufferViews/*/byteStride", Kind::integer, kOptional, kMaxInt},
-    {"/accessors", Kind::list, kOptional, kMaxItems},
-    {"/accessors/*", Kind::object},
-    {"/accessors/*/bufferView", Kind::reference, kOptional, 0, "bufferViews"},
-    {"/accessors/*/byteOffset", Kind::integer, kOptional, kMaxSize},
-    {"/accessors/*/componentType", Kind::integer, kRequired, kMaxInt},
-    {"/accessors/*/count", Kind::integer, kRequired, kMaxSize},
-    {"/accessors/*/type", Kind::choice, kRequired, 0, "|SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4|"},
-    {"/accessors/*/normalized", Kind::boolean},
-    {"/accessors/*/sparse", Kind::object},
-    {"/accessors/*/sparse/count", Kind::integer, kRequired, kMaxInt},
-    {"/accessors/*/sparse/indices", Kind::object, kRequired},
-    {"/accessors/*/sparse/indices/bufferView", Kind::reference, kRequired, 0, "bufferViews"},
-    {"/accessors/*/sparse/indices/byteOffset", Kind::integer, kOptional, kMaxInt},
-    {"/accessors/*/sparse/indices/componentType", Kind::integer, kRequired, kMaxInt},
-    {"/accessors/*/sparse/values", Kind::object, kRequired},
-    {"/accessors/*/sparse/values/bufferView", Kind::reference, kRequired, 0, "bufferViews"},
-    {"/accessors/*/sparse/values/byteOffset", Kind::integer, kOptional, kMaxInt},
-
-    {"/images", Kind::list, kOptional, kMaxItems},
-    {"/images/*", Kind::object},
-    {"/images/*/uri", Kind::text},
-    {"/images/*/bufferView", Kind::reference, kOptional, 0, "bufferViews"},
-    {"/samplers", Kind::list, kOptional, kMaxItems},
-    {"/samplers/*", Kind::object},
-    {"/samplers/*/magFilter", Kind::integer, kOptional, kMaxInt},
-    {"/samplers/*/wrapS", Kind::integer, kOptional, kMaxInt},
-    {"/samplers/*/wrapT", Kind::integer, kOptional, kMaxInt},
-    {"/textures", Kind::list, kOptional, kMaxItems},
-    {"/textures/*", Kind::object},
-    {"/textures/*/source", Kind::reference, kOptional, 0, "images"},
-    {"/textures/*/sampler", Kind::reference, kOptional, 0, "samplers"},
-    {"/materials", Kind::list, kOptional, kMaxItems},
-    {"/materials/*", Kind::object},
-    {"/materials/*/name", Kind::text},
-    {"/materials/*/alphaMode", Kind::choice, kOptional, 0, "|OPAQUE|MASK|BLEND|"},
-    {"/materials/*/alphaCutoff", Kind::number},
-    {"/materials/*/doubleSided", Kind::boolean},
-    {"/materials/*/emissiveFactor", Kind::numbers, kOptional, 3},
-    {"/materials/*/pbrMetallicRoughness", Kind::object},
-    {"/materials/*/pbrMetallicRoughness/baseColorFactor", Kind::numbers, kOptional, 4},
-    {"/materials/*/pbrMetallicRoughness/metallicFactor", Kind::number},
-    {"/materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number},
-    {"/materials/*/pbrMetallicRoughness/baseColorTexture", Kind::object},
-    {"/materials/*/pbrMetallicRoughness/baseColorTexture/index", Kind::reference, kRequired, 0, "textures"},
-    {"/materials/*/pbrMetallicRoughness/baseColorTexture/texCoord", Kind::integer, kOptional, kMaxInt},
-    {"/materials/*/extensions", Kind::object},
-    {"/materials/*/extensions/KHR_materials_emissive_strength", Kind::object},
-    {"/materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
-    {"/materials/*/extensions/KHR_materials_unlit", Kind::object},
-    {"/materials/*/extensions/KHR_materials_transmission", Kind::object},
-    {"/materials/*/extensions/KHR_materials_transmission/transmissionFactor", Kind::number},
-    {"/materials/*/extensions/KHR_materials_volume", Kind::object},
-    {"/materials/*/extensions/KHR_materials_volume/thicknessFactor", Kind::number},
-    {"/materials/*/extensions/KHR_materials_volume/attenuationDistance", Kind::number},
-    {"/materials/*/extensions/KHR_materials_volume/attenuationColor", Kind::numbers, kOptional, 3},
-
-    {"/meshes", Kind::list, kOptional, kMaxItems},
-    {"/meshes/*", Kind::object},
-    {"/meshes/*/name", Kind::text},
-    {"/meshes/*/primitives", Kind::list, kRequired, kMaxItems},
-    {"/meshes/*/primitives/*", Kind::object},
-    {"/meshes/*/primitives/*/attributes", Kind::object, kRequired},
-    {"/meshes/*/primitives/*/attributes/*", Kind::reference, kOptional, 0, "accessors"},
-    {"/meshes/*/primitives/*/indices", Kind::reference, kOptional, 0, "accessors"},
-    {"/meshes/*/primitives/*/material", Kind::reference, kOptional, 0, "materials"},
-    {"/meshes/*/primitives/*/mode", Kind::integer, kOptional, kMaxInt},
-    {"/meshes/*/primitives/*/targets", Kind::list, kOptional, kMaxTargets},
-    {"/meshes/*/primitives/*/targets/*", Kind::object},
-    {"/meshes/*/primitives/*/targets/*/*", Kind::reference, kOptional, 0, "accessors"},
-    {"/meshes/*/weights", Kind::list, kOptional, kMaxTargets},
-    {"/meshes/*/weights/*", Kind::number},
-
-    {"/cameras", Kind::list, kOptional, kMaxItems},
-    {"/cameras/*", Kind::object},
-    {"/cameras/*/type", Kind::choice, kRequired, 0, "|perspective|orthographic|"},
-    {"/cameras/*/perspective", Kind::object},
-    {"/cameras/*/perspective/yfov", Kind::number, kRequired},
-    {"/cameras/*/perspective/znear", Kind::number, kRequired},
-    {"/cameras/*/perspective/zfar", Kind::number},
-    {"/cameras/*/perspective/aspectRatio", Kind::number},
-    {"/cameras/*/orthographic", Kind::object},
-    {"/cameras/*/orthographic/xmag", Kind::number, kRequired},
-    {"/cameras/*/orthographic/ymag", Kind::number, kRequired},
-    {"/cameras/*/orthographic/zfar", Kind::number, kRequired},
-    {"/cameras/*/orthographic/znear", Kind::number, kRequired},
-
-    {"/extensions", Kind::object},
-    {"/extensions/KHR_lights_punctual", Kind::object},
-    {"/extensions/KHR_lights_punctual/lights", Kind::list, kRequired, kMaxItems},
-    {"/extensions/KHR_lights_punctual/lights/*", Kind::object},
-    {"/extensions/KHR_lights_punctual/lights/*/type", Kind::choice, kRequired, 0, "|directional|point|spot|"},
-    {"/extensions/KHR_lights_punctual/lights/*/color", Kind::numbers, kOptional, 3},
-    {"/extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
-    {"/extensions/KHR_lights_punctual/lights/*/range", Kind::number},
-    {"/extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
-    {"/extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
-    {"/extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
-
-    {"/extensions/EXT_lights_area", Kind::object},
-    {"/extensions/EXT_lights_area/lights", Kind::list, kRequired, kMaxItems},
-    {"/extensions/EXT_lights_area/lights/*", Kind::object},
-    {"/extensions/EXT_lights_area/lights/*/name", Kind::text},
-    {"/extensions/EXT_lights_area/lights/*/type", Kind::choice, kRequired, 0, "|rect|disk|sphere|tube|"},
-    {"/extensions/EXT_lights_area/lights/*/color", Kind::numbers, kOptional, 3},
-    {"/extensions/EXT_lights_area/lights/*/intensity", Kind::number},
-    {"/extensions/EXT_lights_area/lights/*/size", Kind::number},
-    {"/extensions/EXT_lights_area/lights/*/rect", Kind::object},
-    {"/extensions/EXT_lights_area/lights/*/rect/aspect", Kind::number},
-    {"/extensions/EXT_lights_area/lights/*/tube", Kind::object},
-    {"/extensions/EXT_lights_area/lights/*/tube/radius", Kind::number},
-
-    {"/nodes", Kind::list, kOptional, kMaxNodes},
-    {"/nodes/*", Kind::object},
-    {"/nodes/*/name", Kind::text},
-    {"/nodes/*/mesh", Kind::reference, kOptional, 0, "meshes"},
-    {"/nodes/*/camera", Kind::reference, kOptional, 0, "cameras"},
-    {"/nodes/*/translation", Kind::numbers, kOptional, 3},
-    {"/nodes/*/rotation", Kind::numbers, kOptional, 4},
-    {"/nodes/*/scale", Kind::numbers, kOptional, 3},
-    {"/nodes/*/matrix", Kind::numbers, kOptional, 16},
-    {"/nodes/*/skin", Kind::reference, kOptional, 0, "skins"},
-    {"/nodes/*/weights", Kind::list, kOptional, kMaxTargets},
-    {"/nodes/*/weights/*", Kind::number},
-    {"/nodes/*/children", Kind::list, kOptional, kMaxNodes},
-    {"/nodes/*/children/*", Kind::reference, kOptional, 0, "nodes"},
-    {"/nodes/*/extensions", Kind::object},
-    {"/nodes/*/extensions/KHR_lights_punctual", Kind::object},
-    {"/nodes/*/extensions/KHR_lights_punctual/light", Kind::reference, kRequired, 0,
-     "/extensions/KHR_lights_punctual/lights"},
-    {"/nodes/*/extensions/EXT_lights_area", Kind::object},
-    {"/nodes/*/extensions/EXT_lights_area/light", Kind::reference, kRequired, 0, "/extensions/EXT_lights_area/lights"},
-    {"/skins", Kind::list, kOptional, kMaxItems},
-    {"/skins/*", Kind::object},
-    {"/skins/*/joints", Kind::list, kRequired, kMaxNodes},
-    {"/skins/*/joints/*", Kind::reference, kOptional, 0, "nodes"},
-    {"/skins/*/inverseBindMatrices", Kind::reference, kOptional, 0, "accessors"},
-    {"/animations", Kind::list, kOptional, kMaxItems},
-    {"/animations/*", Kind::object},
-    {"/animations/*/name", Kind::text},
-    {"/animations/*/samplers", Kind::list, kRequired, kMaxItems},
-    {"/animations/*/samplers/*", Kind::object},
-    {"/animations/*/samplers/*/input", Kind::reference, kRequired, 0, "accessors"},
-    {"/animations/*/samplers/*/output", Kind::reference, kRequired, 0, "accessors"},
-    {"/animations/*/samplers/*/interpolation", Kind::choice, kOptional, 0, "|LINEAR|STEP|CUBICSPLINE|"},
-    {"/animations/*/channels", Kind::list, kRequired, kMaxItems},
-    {"/animations/*/channels/*", Kind::object},
-    {"/animations/*/channels/*/sampler", Kind::integer, kRequired, kMaxItems},
-    {"/animations/*/channels/*/target", Kind::object, kRequired},
-    {"/animations/*/channels/*/target/node", Kind::reference, kOptional, 0, "nodes"},
-    {"/animations/*/channels/*/target/path", Kind::text, kRequired},
-    {"/scenes", Kind::list, kOptional, kMaxItems},
-    {"/scenes/*", Kind::object},
-    {"/scenes/*/nodes", Kind::list, kOptional, kMaxNodes},
-    {"/scenes/*/nodes/*", Kind::reference, kOptional, 0, "nodes"},
-    {"/scene", Kind::reference, kOptional, 0, "scenes"},
-};
-
 class ShapeChecker {
 public:
     explicit ShapeChecker(json& document) : document_(document) {}
 
-    void check(const Row& row) {
+    void check(const ShapeRow& row) {
         row_ = &row;
-        target_size_ = row.kind == Kind::reference ? size_of(row.target) : 0;
+        target_size_ = row.kind == ShapeKind::reference ? size_of(row.target) : 0;
         pointer_.clear();
         walk(document_, row.path);
     }
@@ -239,7 +45,7 @@ private:
         if (!value.is_object()) return;  // its own row has reported it, or nothing reads it
         const auto member = value.find(key);
         if (member != value.end()) return step(member.value(), key, next);
-        if (next.empty() && row_->need == Need::required) {
+        if (next.empty() && row_->need == ShapeNeed::required) {
             fail("property.missing", pointer_, "\"" + key + "\" is missing");
         }
     }
@@ -262,23 +68,23 @@ private:
 
     void check_value(json& value) {
         switch (row_->kind) {
-            case Kind::object:
+            case ShapeKind::object:
                 return expect(value.is_object(), "an object");
-            case Kind::list:
+            case ShapeKind::list:
                 return check_list(value);
-            case Kind::text:
+            case ShapeKind::text:
                 return expect(value.is_string(), "a string");
-            case Kind::boolean:
+            case ShapeKind::boolean:
                 return expect(value.is_boolean(), "true or false");
-            case Kind::number:
+            case ShapeKind::number:
                 return expect(value.is_number(), "a number");
-            case Kind::integer:
+            case ShapeKind::integer:
                 return check_integer(value, row_->size, "property.range");
-            case Kind::numbers:
+            case ShapeKind::numbers:
                 return check_numbers(value);
-            case Kind::reference:
+            case ShapeKind::reference:
                 return check_reference(value);
-            case Kind::choice:
+            case ShapeKind::choice:
                 return check_choice(value);
         }
     }
@@ -334,7 +140,7 @@ private:
     }
 
     json& document_;
-    const Row* row_ = nullptr;
+    const ShapeRow* row_ = nullptr;
     std::size_t target_size_ = 0;
     std::string pointer_;
 };
@@ -397,7 +203,7 @@ void check_across(json& document, Notes& notes) {
 void check_shape(json& document, Notes& notes) {
     if (!document.is_object()) fail("json.root", "", "the root is not an object");
     ShapeChecker checker(document);
-    for (const Row& row : kRows) checker.check(row);
+    for (const ShapeRow& row : shape_rows()) checker.check(row);
     check_across(document, notes);
 }
 

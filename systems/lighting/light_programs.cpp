@@ -127,7 +127,7 @@ LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ShaderKey& wan
     shadow::ShaderKey row = wanted;
     const bool reads_answers = row.sheets && (output == ShaderPass::picture || output == ShaderPass::visibility ||
                                               output == ShaderPass::found_middles);
-    if (row.rays && output != ShaderPass::crossed_areas) row.antialias = false;
+    if (row.rays && output != ShaderPass::crossed_areas) row.area_shares = shadow::AreaShares::none;
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
     row.sheets = wanted.sheets;
     row.tint = reads_tint(output) ? wanted.tint : shadow::TintLookup::none;
@@ -167,7 +167,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-                              (row.manual_bias ? " manual bias" : "") + (row.antialias ? " antialiased" : "") +
+                              (row.manual_bias ? " manual bias" : "") + (row.area_shares == shadow::AreaShares::marked ? " antialiased" : "") +
                               (row.tint != shadow::TintLookup::none ? " tinted" : "") +
                               (found_before ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
     if (is_forward(output))

@@ -240,9 +240,9 @@ LightProgram MaskPass::program_of(const shadow::LightingLight& light) {
     const gl::ProgramHandle own = programs_.row(light.row, ShaderPass::visibility);
     if (own) {
         LightProgram used{own, light.map, light.triangles, light.sampler};
-        if (light.row.antialias && edges_.is_there()) {
+        if (light.row.area_shares == shadow::AreaShares::marked && edges_.is_there()) {
             shadow::ShaderKey middles = light.row;
-            middles.antialias = false;
+            middles.area_shares = shadow::AreaShares::none;
             LightProgram steps = used;
             steps.decided_program = programs_.row(middles, ShaderPass::decided_middles);
             steps.program = programs_.row(middles, ShaderPass::undecided_middles);
@@ -250,7 +250,7 @@ LightProgram MaskPass::program_of(const shadow::LightingLight& light) {
                            programs_.row(kept_row(light.row), ShaderPass::kept_visibility)};
             if (steps.decided_program && steps.program && steps.edges) return steps;
         }
-        if (light.row.triangles && !light.row.antialias && !undecided_targets_.empty())
+        if (light.row.triangles && light.row.area_shares != shadow::AreaShares::marked && !undecided_targets_.empty())
             used.decided_program = programs_.row(light.row, ShaderPass::decided_visibility);
         return used;
     }
@@ -308,7 +308,7 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
     }));
     edges_.provide(std::any_of(in.layers.begin(), in.layers.end(),
                                [&](std::uint32_t layer) {
-                                   return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.antialias;
+                                   return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.area_shares == shadow::AreaShares::marked;
                                }),
                    size_px_);
     upload(in, list);

@@ -54,9 +54,9 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
             used.rays_program = made(ShaderPass::rays);
             return used.verdicts_program && used.rays_program;
         };
-        if (light.row.antialias && !is_forward(output) && edges_.is_there()) {
+        if (light.row.area_shares == shadow::AreaShares::marked && !is_forward(output) && edges_.is_there()) {
             shadow::ShaderKey middles = light.row;
-            middles.antialias = false;
+            middles.area_shares = shadow::AreaShares::none;
             const ShaderPass reads = output == ShaderPass::picture ? ShaderPass::kept : ShaderPass::kept_visibility;
             if (!light.row.rays) used.decided_program = made_of(middles, ShaderPass::decided_middles);
             used.program = made_of(middles, light.row.rays ? ShaderPass::found_middles : ShaderPass::undecided_middles);
@@ -67,7 +67,7 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
         }
         used.program = made(output);
         // A program that only saves time is made when there is time.
-        const bool leaves = !waits && light.row.triangles && !light.row.antialias && output == ShaderPass::picture &&
+        const bool leaves = !waits && light.row.triangles && light.row.area_shares != shadow::AreaShares::marked && output == ShaderPass::picture &&
                             targets_.undecided_target;
         if (leaves && !programs_.must_wait(light.row, ShaderPass::decided))
             used.decided_program = programs_.row(light.row, ShaderPass::decided);

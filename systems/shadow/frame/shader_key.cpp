@@ -57,8 +57,8 @@ std::vector<std::string> program_defines(const ShaderKey& row) {
     defines.push_back(flag("SHADOW_RAYS", row.rays));
     defines.push_back(flag("SHADOW_FADES", row.fades));
     defines.push_back(flag("SHADOW_MANUAL_BIAS", row.manual_bias));
-    defines.push_back(flag("SHADOW_ANTIALIAS", row.antialias));
-    defines.push_back(flag("SHADOW_SPREAD", row.spread));
+    defines.push_back(flag("SHADOW_ANTIALIAS", row.area_shares == AreaShares::marked));
+    defines.push_back(flag("SHADOW_SPREAD", row.area_shares == AreaShares::spread));
     defines.push_back(flag("SHADOW_OF_MIDDLE", is_shadowed && !row.whole_source));
     defines.push_back(file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"));
     const std::string reading(map_reading(row));
@@ -83,7 +83,8 @@ std::vector<std::string> shared_defines(const SharedRow& row) {
 std::string row_glsl(const ShaderKey& row) {
     if (row.filter_file.empty()) return {};
     std::string text;
-    if (row.footprint || row.triangles || row.rays || row.spread) text += "#include \"common/camera_block.glsl\"\n";
+    if (row.footprint || row.triangles || row.rays || row.area_shares == AreaShares::spread)
+        text += "#include \"common/camera_block.glsl\"\n";
     for (const std::string_view file : {row.kind_file, row.filter_file})
         text += "#include \"" + std::string(file) + "\"\n";
     if (row.moments) text += "#include \"shadow/filters/prefiltered/without_bleeding.glsl\"\n";

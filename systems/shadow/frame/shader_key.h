@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "systems/shadow/frame/area_shares.h"
+
 namespace gnomon::shadow {
 
 /// How a program finds what the light's translucent casters let through: by layers beside its map, or by rays through a
@@ -25,8 +27,7 @@ struct ShaderKey {
     bool rays = false;         // traces rays to the casters' triangles from surfaces with exact positions
     bool ray_masks = false;    // some of the triangles read by `rays` or `triangles` are alpha-masked
     bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
-    bool antialias = false;    // visibility is a share of the pixel's area: AreaShares::marked
-    bool spread = false;       // taps and rays of a source begin all over the pixel's area: AreaShares::spread
+    AreaShares area_shares = AreaShares::none;  // how visibility becomes a share of the pixel's area; none: it does not
     TintLookup tint = TintLookup::none;  // read by programs that add light to a picture alone
     bool whole_source = false;  // the filter sees all of an area light; others see its middle alone
     bool operator==(const ShaderKey&) const = default;

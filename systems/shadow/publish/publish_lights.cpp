@@ -211,11 +211,9 @@ CameraRecord camera_record(const ConsumerItem& c) {
 
 namespace {
 
-/// Sets how a light's row finds the lit shares of pixels' areas.
-void set_area_shares(const LightItem& light, ShadowFilter filter, ShaderKey& row) {
-    const AreaShares shares = filter_row(filter).area_shares;
-    row.antialias = light.shadow.antialias && shares == AreaShares::marked;
-    row.spread = light.shadow.antialias && shares == AreaShares::spread;
+/// Returns how a light finds the lit shares of pixels' areas.
+AreaShares area_shares(const LightItem& light, ShadowFilter filter) {
+    return light.shadow.antialias ? filter_row(filter).area_shares : AreaShares::none;
 }
 
 /// Returns whether a filter sees all of an area light's source.
@@ -239,7 +237,7 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
                    .filter_file = filter_row(request.map.filter).file,
                    .rays = true,
                    .ray_masks = static_cast<bool>(in.rays.masks)};
-        set_area_shares(light, request.map.filter, out.row);
+        out.row.area_shares = area_shares(light, request.map.filter);
         out.row.whole_source = sees_whole_source(light, request.map.filter);
         out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
@@ -289,7 +287,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     out.row.ray_masks = out.row.triangles && in.masked;
     // A map that serves one tap has none.
     if (out.row.filter_file == filter_row(request.map.filter).file) {
-        set_area_shares(light, request.map.filter, out.row);
+        out.row.area_shares = area_shares(light, request.map.filter);
         out.row.whole_source = sees_whole_source(light, request.map.filter);
     }
     const auto most_views = static_cast<std::int32_t>(light_facts(light.kind).area() ? kSourceView : kMaxViews);

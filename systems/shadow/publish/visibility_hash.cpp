@@ -16,9 +16,9 @@ void add_row(const ShaderKey& row, Signature& s) {
     s.add(row.reach_texel);
     std::uint64_t bits = 0;
     for (const bool bit : {row.fades, row.depths, row.manual_bias, row.triangles, row.moments, row.rays, row.ray_masks,
-                           row.footprint, row.sheets, row.antialias, row.spread, row.whole_source})
+                           row.footprint, row.sheets, row.whole_source})
         bits = bits * 2 + (bit ? 1 : 0);
-    s.add(bits);
+    s.add(bits * 4 + static_cast<std::uint64_t>(row.area_shares));
 }
 
 /// Adds what the lookup reads, and where.

@@ -5,6 +5,7 @@
 
 #include "engine/gl/device.h"
 #include "gnomon/shadow_tuning.h"
+#include "systems/shadow/frame/area_shares.h"
 
 namespace gnomon::shadow {
 
@@ -60,11 +61,6 @@ struct RayRow {
     ShadowFilter without_rays;  // fallback where rays are unavailable: the most accurate filter without rays
     ShadowFilter without_size;  // replacement where the light's source is a point
 };
-
-/// Way of a filter to the lit share of a pixel's area (LightShadow::antialias).
-/// - marked: pixels that an edge may cross are marked, and looked up once more (systems/lighting/edge_pass.h)
-/// - spread: taps and rays to a source with a size begin all over the area
-enum class AreaShares : std::uint8_t { none, marked, spread };
 
 /// Filter of a depth map. A new one needs a file in shaders/shadow/filters, an enumerator and a row
 /// (docs/contributors/adding_a_filter.md).

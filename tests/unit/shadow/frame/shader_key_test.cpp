@@ -51,11 +51,12 @@ ShaderKey shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl"
 ShaderKey full_row() {
     ShaderKey row = shadowed_row();
     auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
-           masks, footprint, antialias, spread, tint, whole_source] = row;  // all members: another one does not compile
+           masks, footprint, area_shares, tint, whole_source] = row;  // all members: another one does not compile
     for (bool* flag : {&fades, &depths, &manual_bias, &triangles, &sheets, &moments, &rays, &masks, &footprint,
-                       &antialias, &spread, &whole_source})
+                       &whole_source})
         *flag = true;
     tint = TintLookup::layers;
+    area_shares = AreaShares::marked;
     return row;
 }
 
@@ -73,10 +74,15 @@ TEST(ShaderKey, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
     const std::vector<std::string> least = program_defines(shadowed_row());
     for (bool ShaderKey::*flag : {&ShaderKey::fades, &ShaderKey::depths, &ShaderKey::manual_bias,
                                    &ShaderKey::triangles, &ShaderKey::sheets, &ShaderKey::moments, &ShaderKey::rays,
-                                   &ShaderKey::ray_masks, &ShaderKey::footprint, &ShaderKey::antialias,
-                                   &ShaderKey::spread, &ShaderKey::whole_source}) {
+                                   &ShaderKey::ray_masks, &ShaderKey::footprint, &ShaderKey::whole_source}) {
         ShaderKey row = shadowed_row();
         row.*flag = true;
+        EXPECT_NE(program_defines(row), least);
+        EXPECT_EQ(names_of(program_defines(row)), names_of(least));
+    }
+    for (const AreaShares shares : {AreaShares::marked, AreaShares::spread}) {
+        ShaderKey row = shadowed_row();
+        row.area_shares = shares;
         EXPECT_NE(program_defines(row), least);
         EXPECT_EQ(names_of(program_defines(row)), names_of(least));
     }
