@@ -103,7 +103,7 @@ enum class ShadowFilter : std::uint8_t {
     exact,               // no wrong pixel: rays where the map is uncertain
     exact_soft,          // the same for a source with a size
     count,               // number of filters
-    automatic            // triangles, or exact where only that meets max_error_px and narrowest_caster_px
+    automatic            // pcss for area lights; else triangles, or exact where only that meets the targets
 };
 /// Returns its name, for example "pcf_grid".
 const char* to_text(ShadowFilter filter);
@@ -121,9 +121,9 @@ inline constexpr std::size_t kMaxCascades = 8;
 struct LightShadow {
     /// Switch of the light's shadows. false: the light shines through everything, and its maps are freed.
     bool enabled = true;
-    /// Filter that reads the map. `automatic`: triangles, which measures best. It becomes exact where max_error_px or
-    /// narrowest_caster_px is set and no map with triangles meets it. Change it for soft shadows (pcss, exact_soft),
-    /// for edges without any error (exact), or for speed (hardware_2x2).
+    /// Filter that reads the map. `automatic`: pcss for area lights, else triangles, which measures best. It becomes
+    /// exact where max_error_px or narrowest_caster_px is set and no map with triangles meets it. Change it for soft
+    /// shadows (pcss, exact_soft), for edges without any error (exact), or for speed (hardware_2x2).
     ShadowFilter filter = ShadowFilter::automatic;
     /// Antialiased edges of `triangles`, `exact`, `exact_soft` and `pcss`: visibility is the share of a pixel's area that
     /// the light reaches. false: by the pixel's middle. Other filters do not depend on it. Set it where stairs at edges

@@ -1,6 +1,7 @@
 #include "sample_game/inside/filter_figures.h"
 
 #include "systems/extract/light_facts.h"
+#include "systems/shadow/request/filter_choice.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/filter_table.h"
 
@@ -38,6 +39,10 @@ FilterFigures figures_of(ShadowFilter filter) {
     }
     if (row.rays) figures.rays = row.rays->per_source ? FilterRays::to_source : FilterRays::one;
     return figures;
+}
+
+ShadowFilter filter_of(ShadowFilter wanted, LightKind kind) {
+    return wanted == ShadowFilter::automatic ? shadow::usual_filter(kind) : wanted;
 }
 
 bool is_sun(LightKind kind) { return light_facts(kind).parallel; }

@@ -10,17 +10,17 @@ namespace {
 
 using Settings = const LightSettings&;
 
-FilterFigures row_of(Settings s) { return figures_of(s.shadow.filter); }
+FilterFigures row_of(Settings s, LightKind kind) { return figures_of(filter_of(s.shadow.filter, kind)); }
 bool is_among(std::span<const ShadowFilter> filters, ShadowFilter filter) {
     return std::find(filters.begin(), filters.end(), filter) != filters.end();
 }
 
-bool for_area_shares(Settings s, LightKind) { return row_of(s).antialiases; }
+bool for_area_shares(Settings s, LightKind kind) { return row_of(s, kind).antialiases; }
 
 bool for_sun(Settings, LightKind kind) { return is_sun(kind); }
 bool for_point(Settings, LightKind kind) { return is_point(kind); }
 
-bool for_source(Settings s, LightKind) { return row_of(s).extent == FilterExtent::source; }
+bool for_source(Settings s, LightKind kind) { return row_of(s, kind).extent == FilterExtent::source; }
 bool for_width(Settings, LightKind kind) { return has_width(kind); }
 bool for_height(Settings, LightKind kind) { return has_height(kind); }
 bool for_lamp_source(Settings s, LightKind kind) {
@@ -28,27 +28,27 @@ bool for_lamp_source(Settings s, LightKind kind) {
 }
 bool for_sun_source(Settings s, LightKind kind) { return for_source(s, kind) && for_sun(s, kind); }
 
-bool for_size(Settings s, LightKind) { return row_of(s).extent == FilterExtent::size; }
-bool for_spread(Settings s, LightKind) { return row_of(s).extent == FilterExtent::spread; }
+bool for_size(Settings s, LightKind kind) { return row_of(s, kind).extent == FilterExtent::size; }
+bool for_spread(Settings s, LightKind kind) { return row_of(s, kind).extent == FilterExtent::spread; }
 bool for_spread_texel(Settings s, LightKind kind) { return for_spread(s, kind) && !(s.tuning.kernel.spread_m > 0.0f); }
-bool for_taps(Settings s, LightKind) {
+bool for_taps(Settings s, LightKind kind) {
     static constexpr std::array kWithTaps{ShadowFilter::poisson, ShadowFilter::poisson_rotated,
                                           ShadowFilter::poisson_stratified, ShadowFilter::pcss};
-    return is_among(kWithTaps, s.shadow.filter);
+    return is_among(kWithTaps, filter_of(s.shadow.filter, kind));
 }
-bool for_seed(Settings s, LightKind) { return row_of(s).random; }
+bool for_seed(Settings s, LightKind kind) { return row_of(s, kind).random; }
 bool for_cells(Settings s, LightKind kind) { return for_seed(s, kind) && s.tuning.kernel.seed == FilterSeed::world; }
 bool for_many_taps(Settings s, LightKind kind) {
-    return (for_size(s, kind) || for_spread(s, kind)) && !row_of(s).prefiltered;
+    return (for_size(s, kind) || for_spread(s, kind)) && !row_of(s, kind).prefiltered;
 }
-bool for_source_rays(Settings s, LightKind) { return row_of(s).rays == FilterRays::to_source; }
+bool for_source_rays(Settings s, LightKind kind) { return row_of(s, kind).rays == FilterRays::to_source; }
 
-bool for_moments(Settings s, LightKind) { return row_of(s).prefiltered; }
-bool for_exponent(Settings s, LightKind) { return row_of(s).has_exponent; }
-bool for_second_warp(Settings s, LightKind) { return row_of(s).has_second; }
+bool for_moments(Settings s, LightKind kind) { return row_of(s, kind).prefiltered; }
+bool for_exponent(Settings s, LightKind kind) { return row_of(s, kind).has_exponent; }
+bool for_second_warp(Settings s, LightKind kind) { return row_of(s, kind).has_second; }
 
 // Maps of bounds have neither an offset nor a format of depths to choose.
-bool for_depths(Settings s, LightKind) { return row_of(s).keeps_depths; }
+bool for_depths(Settings s, LightKind kind) { return row_of(s, kind).keeps_depths; }
 bool for_offset_m(Settings s, LightKind kind) {
     static constexpr std::array kModes{BiasMode::constant, BiasMode::slope, BiasMode::normal_offset,
                                        BiasMode::receiver_plane};

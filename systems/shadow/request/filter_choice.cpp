@@ -20,6 +20,7 @@ bool leaves_filter(const LightItem& light) {
     const LightShadow& shadow = light.shadow;
     const ShadowTuning& tuning = light.tuning;
     if (shadow.filter != ShadowFilter::automatic || targets_of(shadow) == AccuracyTargets{}) return false;
+    if (light_facts(light.kind).area()) return false;
     const bool sun = light_facts(light.kind).parallel;
     const bool given = shadow.resolution_px > 0 || tuning.projection.near_m != 0.0f || tuning.projection.far_m != 0.0f;
     const bool apart =
@@ -27,10 +28,12 @@ bool leaves_filter(const LightItem& light) {
     return !given && !apart && tuning.bias.mode == BiasMode::automatic;
 }
 
+ShadowFilter usual_filter(LightKind kind) { return light_facts(kind).area() ? kAreaFilter : kDefaultFilter; }
+
 ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held) {
     if (light.shadow.filter != ShadowFilter::automatic) return light.shadow.filter;
     const bool exact = held && held->filter == kExactFilter && leaves_filter(light);
-    return exact ? kExactFilter : kDefaultFilter;
+    return exact ? kExactFilter : usual_filter(light.kind);
 }
 
 ShadowFilter chosen_filter(const FilterHistory& held, const MapAccuracy& usual, const AccuracyTargets& targets) {

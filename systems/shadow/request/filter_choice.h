@@ -3,7 +3,7 @@
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// Choice of the filter for ShadowFilter::automatic. It is kDefaultFilter, unless LightShadow::max_error_px or
+/// Choice of the filter for ShadowFilter::automatic. It is kAreaFilter for area lights, else kDefaultFilter, unless LightShadow::max_error_px or
 /// narrowest_caster_px is above 0 and no map within the light's limits meets it. Then it is kExactFilter, which has no
 /// such error and loses no caster, because it traces rays. Without targets the default filter's maps suffice: rays cost
 /// one and a half to three times as much (docs/results/cost.md).
@@ -29,7 +29,10 @@ inline constexpr std::uint32_t kFilterFrames = 60;
 /// the visible receivers.
 inline constexpr std::uint32_t kFilterPasses = 30;
 
-/// Returns true if the targets may choose the filter. Then neither filter nor map size is given, and either filter
+/// Returns the meaning of ShadowFilter::automatic without targets.
+ShadowFilter usual_filter(LightKind kind);
+
+/// Returns true if the targets may choose the filter. Area lights have one. Then neither filter nor map size is given, and either filter
 /// shows the same shadows. They would differ with a sun's own eye, a given depth range, or a manual bias, because the
 /// predicted error assumes the automatic one.
 bool leaves_filter(const LightItem& light);

@@ -92,6 +92,10 @@ struct FilterRow {
 /// best.
 inline constexpr ShadowFilter kDefaultFilter = ShadowFilter::triangles;
 
+/// Meaning of ShadowFilter::automatic for an area light. Its light has no sharp edge but where it touches: the shadow of its
+/// middle alone would be farther off, and black where the middle lies below the surface.
+inline constexpr ShadowFilter kAreaFilter = ShadowFilter::pcss;
+
 /// Cheapest filter: fallback under a budget, and while the light's own program is unavailable. One fetch of one texel,
 /// no texture beside the map, and the narrowest footprint, so that every border and bias suffices for it.
 inline constexpr ShadowFilter kCheapestFilter = ShadowFilter::hard;

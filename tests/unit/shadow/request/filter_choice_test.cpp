@@ -110,6 +110,14 @@ TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
     EXPECT_TRUE(leaves(lamp, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; })) << "of suns alone";
     const FilterHistory keeping{kExactFilter, kOfEdges, {}};
     EXPECT_EQ(filter_to_fit(lamp, nullptr), kDefaultFilter);
+    for (const LightKind kind : {LightKind::rectangle, LightKind::disc, LightKind::sphere, LightKind::tube}) {
+        LightItem area = lamp;
+        area.kind = kind;
+        area.shadow.max_error_px = 0.01f;
+        EXPECT_EQ(filter_to_fit(area, nullptr), ShadowFilter::pcss) << "no target chooses another";
+        area.shadow.filter = ShadowFilter::hard;
+        EXPECT_EQ(filter_to_fit(area, nullptr), ShadowFilter::hard);
+    }
     EXPECT_EQ(filter_to_fit(lamp, &keeping), kExactFilter);
     lamp.shadow.max_error_px = 0.0f;
     EXPECT_EQ(filter_to_fit(lamp, &keeping), kDefaultFilter);
