@@ -26,7 +26,7 @@ struct FilterFigures {
 /// Returns the figures of a filter; of `automatic`, those of the filter that it usually is.
 FilterFigures figures_of(ShadowFilter filter);
 
-/// Returns the filter of such a light: for `automatic` the one that it usually is.
+/// Returns the filter of such a light. For `automatic` that is its usual filter.
 ShadowFilter filter_of(ShadowFilter wanted, LightKind kind);
 
 /// Returns whether the rays of such lights are parallel, or go in all directions.

@@ -92,8 +92,8 @@ struct FilterRow {
 /// best.
 inline constexpr ShadowFilter kDefaultFilter = ShadowFilter::triangles;
 
-/// Meaning of ShadowFilter::automatic for an area light. Its light has no sharp edge but where it touches: the shadow of its
-/// middle alone would be farther off, and black where the middle lies below the surface.
+/// Meaning of ShadowFilter::automatic for an area light. The shadow of its middle alone would be hard, and black where
+/// the middle lies below the surface.
 inline constexpr ShadowFilter kAreaFilter = ShadowFilter::pcss;
 
 /// Cheapest filter: fallback under a budget, and while the light's own program is unavailable. One fetch of one texel,
