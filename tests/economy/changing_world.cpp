@@ -67,7 +67,7 @@ void ChangingWorld::add_light() {
 
 void ChangingWorld::add_caster() {
     if (casters_.size() == kMostCasters) return;
-    constexpr std::uint32_t kMeshes[] = {kBox, kMaskedBox, kMixedBox, kSolidBox};
+    constexpr std::uint32_t kMeshes[] = {kBox, kMaskedBox, kMixedBox, kSolidBox, kBlendedBox};
     casters_.push_back(world_.add_mesh(kMeshes[below(std::size(kMeshes))], place(0.2, 4.0), true));
 }
 
