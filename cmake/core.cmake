@@ -20,7 +20,9 @@ set(GNOMON_CORE_SOURCES
   engine/mesh/surface_edges.cpp
   systems/extract/camera_view.cpp
   systems/extract/flat_range.cpp
+  systems/extract/light_facts.cpp
   systems/extract/scene_tree.cpp
+  systems/extract/source_place.cpp
   systems/extract/usable.cpp
   systems/extract/volumes.cpp
   systems/core/core.cpp
@@ -88,4 +90,5 @@ target_include_directories(gnomon_core PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE
 target_compile_features(gnomon_core PUBLIC cxx_std_20)
 target_link_libraries(gnomon_core PUBLIC glm::glm PRIVATE $<BUILD_INTERFACE:gnomon_options>)
 gnomon_compiled_alone(
+  ${PROJECT_SOURCE_DIR}/systems/extract/light_facts.cpp ${PROJECT_SOURCE_DIR}/systems/extract/source_place.cpp
   ${PROJECT_SOURCE_DIR}/systems/extract/camera_view.cpp ${PROJECT_SOURCE_DIR}/systems/shadow/culling/swept_volume.cpp)

@@ -78,6 +78,16 @@ SourcePlace source_place(AreaSource source, vec2 at) {
     return on_surface(source, offset_m, dot(source.back, source.middle_m));
 }
 
+// Returns the place of the source that is farthest along a unit vector, from its middle.
+vec3 source_top(AreaSource source, vec3 n) {
+    float x = dot(n, source.right), y = dot(n, source.up), z = dot(n, source.back);
+    if (kShape == kSphereShape) return n * source.half_width_m;
+    if (kShape == kDiscShape) return (n - source.back * z) * (source.half_width_m / max(sqrt(max(1.0 - z * z, 0.0)), 1e-6));
+    vec3 along = source.right * (x < 0.0 ? -source.half_width_m : source.half_width_m);
+    if (kShape == kTubeShape) return along + (n - source.right * x) * (source.half_height_m / max(sqrt(max(1.0 - x * x, 0.0)), 1e-6));
+    return along + source.up * (y < 0.0 ? -source.half_height_m : source.half_height_m);
+}
+
 // Returns how far the source reaches from its middle along a unit vector, metres.
 float source_extent(AreaSource source, vec3 n) {
     if (kShape == kSphereShape) return source.half_width_m;

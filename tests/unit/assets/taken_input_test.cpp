@@ -234,6 +234,34 @@ std::vector<TakenInput> taken_light_inputs() {
     };
 }
 
+/// Returns what makes a file with one light of EXT_lights_area, and a node for it.
+std::function<Bytes()> area_light(const json& source, bool and_a_point = false) {
+    GltfBuilder builder = triangle();
+    builder.doc["extensionsUsed"] = {"EXT_lights_area", "KHR_lights_punctual"};
+    builder.doc["extensions"]["EXT_lights_area"]["lights"] = {source};
+    builder.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    json node = {{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}};
+    if (and_a_point) node["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
+    builder.push("nodes", node);
+    return [builder] { return builder.gltf(); };
+}
+
+std::vector<TakenInput> taken_area_light_inputs() {
+    const auto thin = [](float assets::LightData::*side) {
+        return [=](const SceneData& s) { return s.lights.at(1).*side > 0.0F && s.lights.at(1).*side < 1e-5F; };
+    };
+    return {
+        {"AreaSizeZero", "light.size", "/extensions/EXT_lights_area/lights/0/size",
+         area_light({{"type", "disk"}, {"size", 0}}), thin(&assets::LightData::radius_m)},
+        {"AreaSizeNegative", "light.size", "/extensions/EXT_lights_area/lights/0/size",
+         area_light({{"type", "rect"}, {"size", -3}}), thin(&assets::LightData::height_m)},
+        {"AreaAspectZero", "light.aspect", "/extensions/EXT_lights_area/lights/0/aspect",
+         area_light({{"type", "rect"}, {"rect", {{"aspect", 0}}}}), thin(&assets::LightData::width_m)},
+        {"NodeWithTwoLights", "light.two", "/nodes/1", area_light({{"type", "sphere"}}, true),
+         [](const SceneData& s) { return s.nodes.at(1).light == 0; }},
+    };
+}
+
 std::vector<TakenInput> taken_camera_inputs() {
     const auto seen_by = [](json properties) {
         return spoilt([properties](json& doc) {
@@ -285,7 +313,7 @@ std::vector<TakenInput> taken_material_inputs() {
 std::vector<TakenInput> all_taken_inputs() {
     std::vector<TakenInput> all;
     for (const auto& inputs : {taken_file_inputs(), taken_buffer_inputs(), taken_mesh_inputs(), taken_node_inputs(),
-                               taken_light_inputs(), taken_camera_inputs(), taken_material_inputs()})
+                               taken_light_inputs(), taken_area_light_inputs(), taken_camera_inputs(), taken_material_inputs()})
         all.insert(all.end(), inputs.begin(), inputs.end());
     return all;
 }

@@ -17,14 +17,18 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
 #if SHADOW_SPREAD
     PixelArea area = pixel_area(vec3(position_ca), normal);
 #endif
-    for (int i = 0; i < light.filtering.y; ++i) {
+    int count = light.filtering.y;
+    // A round more where all places are below the surface: to the source's highest.
+    for (int i = 0; i < count || (i == count && all == 0.0); ++i) {
 #if SHADOW_SPREAD
-        beside_m = spread_place(area, i);
+        beside_m = i < count ? spread_place(area, i) : vec3(0.0);
 #endif
         dvec3 from_here = middle - dvec3(beside_m);
-        SourcePlace place = source_place(source_seen(vec3(from_here)), ray_place(seed, i, light.filtering.y));
+        AreaSource source = source_seen(vec3(from_here));
+        SourcePlace place = source_place(source, ray_place(seed, min(i, count - 1), count));
+        if (i == count) place.offset_m = source_top(source, normal);
         dvec3 along = (from_here + dvec3(place.offset_m)) * double(kBeforeSource);
-        float weight = place.weight * dot(normalize(vec3(along)), normal);
+        float weight = i < count ? place.weight * dot(normalize(vec3(along)), normal) : 1.0;
         if (!(weight > 0.0)) continue;
         all += weight;
         lit += weight * lit_along(position_ca, beside_m, along, kNoEnd, error_m, receiver);

@@ -17,6 +17,8 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
     const LightSettings odd{
         .source_radius_m = 0.13f,
         .sun_radius_rad = 0.00465f,
+        .width_m = 2.5f,
+        .height_m = 0.3f,
         .shadow = {.enabled = false,
                    .filter = ShadowFilter::pcf_grid,
                    .antialias = true,
