@@ -1,4 +1,5 @@
 // Cascade by a place's distance along the view that cascades are fitted to. Requires light_block.glsl.
+
 // Returns that distance, metres.
 float fitted_distance_m(vec3 position_ca) { return dot(position_ca, light.position.xyz) + light.position.w; }
 
