@@ -11,9 +11,9 @@
 namespace gnomon::math {
 namespace {
 
-class Random {
+class RandomPoints {
 public:
-    explicit Random(std::uint64_t seed) : random_(seed) {}
+    explicit RandomPoints(std::uint64_t seed) : random_(seed) {}
     double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
     glm::dvec3 vector(double reach) { return {number(-reach, reach), number(-reach, reach), number(-reach, reach)}; }
 
@@ -33,7 +33,7 @@ std::vector<glm::dvec3> corners_of(const Aabb& box) {
 }
 
 /// Returns how far a box reaches beyond all points, along any of many directions: above 0 it is not in their hull.
-double beyond(const Aabb& box, const std::vector<glm::dvec3>& points, Random& random) {
+double beyond(const Aabb& box, const std::vector<glm::dvec3>& points, RandomPoints& random) {
     constexpr int kDirections = 2000;
     double most = -kInfinity;
     for (int i = 0; i < kDirections; ++i) {
@@ -67,7 +67,7 @@ TEST(InnerHull, CornersOfATetrahedronsBoxAreOutside) {
 }
 
 TEST(InnerHull, ContainsWhatLiesInTheHullOfRandomPoints) {
-    Random random(print_seed());
+    RandomPoints random(print_seed());
     std::size_t contained = 0, tried = 0;
     for (int round = 0; round < 60; ++round) {
         const double scale = std::exp2(random.number(-20.0, 20.0));
