@@ -11,11 +11,11 @@ constexpr double kMostByMaps = 2.0, kMostByRays = 0.1;  // mean difference, of 2
 
 struct HardCase {
     const char* name;
-    double scale = 1.0;            // of the whole world
-    glm::dvec3 offset_m{0.0};      // of the whole world
-    glm::dvec3 pane_scale{1.0};    // of panes alone
+    double scale = 1.0;            // scale of the whole world
+    glm::dvec3 offset_m{0.0};      // place of the whole world
+    glm::dvec3 pane_scale{1.0};    // scale of panes alone
     glm::dvec3 lamp_m{0.7, 9.0, 0.4};
-    double tilt_rad = 0.0;         // of panes, from level
+    double tilt_rad = 0.0;         // tilt of panes, from level
 };
 const HardCase kCases[] = {
     {.name = "as_usual"},
