@@ -21,6 +21,7 @@ if(GNOMON_SAMPLE)
   # Translucent casters, by maps and by rays.
   gnomon_tests(NAME gl_tint LABEL gl SOURCES
     tint_gl_test.cpp
+    tint_hard_cases_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_oracle)
   # Meshes that come and go.
   gnomon_tests(NAME gl_streaming LABEL gl SOURCES
