@@ -7,8 +7,8 @@
 
 namespace gnomon::assets::gltf {
 
-/// Fills scene.lights from KHR_lights_punctual and then EXT_lights_area, one each, in order. Invalid values become the nearest valid ones, with
-/// a warning. Numbers beyond a float throw Failure.
+/// Fills scene.lights from KHR_lights_punctual and then EXT_lights_area, one each, in order. Invalid values become the
+/// nearest valid ones, with a warning. Numbers beyond a float throw Failure.
 void load_lights(Document& document, SceneData& scene);
 
 /// Fills scene.cameras, in order. Drops invalid cameras with a warning. Returns for each glTF camera its index in

@@ -50,8 +50,8 @@ struct Light {
     /// Strength, at least 0. Directional: lux at the surface; spot and point: candela; area lights: nits. Effect:
     /// brightness, and which lights a budget keeps. 0: the light is off and has no shadow.
     float intensity = 100.0f;
-    /// Distance from its position at which a light other than a directional one ends, metres. 0: unlimited. Change it to cut cost: what lies beyond
-    /// is neither lit nor in the map.
+    /// Distance from its position at which any light but a directional one ends, metres. 0: unlimited. Change it to cut
+    /// cost: what lies beyond is neither lit nor in the map.
     float range_m = 0.0f;
     /// Half angle of a spot's full intensity, radians, from 0 to below outer_cone_rad. Larger: a harder rim.
     float inner_cone_rad = 0.0f;

@@ -1,7 +1,7 @@
 // Light of an area light that a surface reflects, by linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016).
 // A lobe of brdf.glsl is the part above the surface of a cosine's lobe that is turned and stretched. What a source gives
-// is then the integral of a cosine over its transformed outline, which has a closed form (Lambert 1760).
-#include "common/bindings.glsl"
+// is then the integral of a cosine over its transformed outline, which has a closed form (Lambert 1760). Requires
+// common/bindings.glsl.
 #include "lighting/lights/area_outline.glsl"
 layout(std430, binding = kAreaTableBuffer) readonly buffer AreaTable { vec4 area_lobes[]; };
 

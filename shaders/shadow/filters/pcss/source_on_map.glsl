@@ -1,8 +1,6 @@
 // An area light as the receiver sees it in a map. Straight lines stay straight there, with depth as their length: a place
 // of the source is a direction.
 #include "shadow/lookup/source_place.glsl"
-#include "shadow/lookup/light_vector.glsl"
-#include "common/unit.glsl"
 const float kNearestPlace = 0.2;   // least share of the receiver's depth that a place of the source is off it
 
 struct MapSource {
@@ -14,14 +12,15 @@ MapSource map_source = MapSource(vec3(0.0), vec3(0.0), 1.0);   // as the receive
 // Returns half axes of the source. A round one is taken as what faces the receiver: a disk of a sphere, a strip of a
 // tube.
 MapSource source_on_map(ShadowPoint point) {
-    AreaSource source = source_seen(toward_light(point.position_ca));
+    AreaSource source = source_seen(light.position.xyz + light.low.xyz - point.position_ca);
     vec3 first = source.right, second = source.up;
     if (kShape == kSphereShape) {
         mat3 axes = axes_around(normalize(source.middle_m));
         first = axes[0];
         second = axes[1];
     }
-    if (kShape == kTubeShape) second = unit_or(cross(source.right, source.middle_m), source.up);
+    vec3 beside = cross(source.right, source.middle_m);
+    if (kShape == kTubeShape && dot(beside, beside) > 0.0) second = normalize(beside);
     MapSource seen;
     seen.first_m = in_view(point, first * source.half_width_m);
     seen.second_m = in_view(point, second * source.half_height_m);
