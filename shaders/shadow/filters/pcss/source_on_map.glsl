@@ -9,6 +9,24 @@ struct MapSource {
 };
 MapSource map_source = MapSource(vec3(0.0), vec3(0.0), 1.0);   // as the receiver sees it
 
+#ifdef SHADOW_CUBE
+// Returns a vector's parts along u, v and the way toward the light, in the point's face.
+vec3 in_view(ShadowPoint point, vec3 v) { return turned_back(v) * face_axes(point.position); }
+
+float view_distance_m(ShadowPoint point) { return largest(point.position); }
+#else
+// Returns a vector's parts along u, v and the way toward the light, in the point's view.
+vec3 in_view(ShadowPoint point, vec3 v) {
+    ViewRecord view = light.views[point.view];
+    return vec3(dot(v, view.axis_u.xyz), dot(v, view.axis_v.xyz), dot(v, view.axis_back.xyz));
+}
+
+float view_distance_m(ShadowPoint point) {
+    ViewRecord view = light.views[point.view];
+    return view.axis_back.w / max(point.reference - view.numeric.z, 1e-30);
+}
+#endif
+
 // Returns half axes of the source. A round one is taken as what faces the receiver: a disk of a sphere, a strip of a
 // tube.
 MapSource source_on_map(ShadowPoint point) {

@@ -74,13 +74,6 @@ float seam_texel(float reach_texel) { return kReadsDepths ? max(reach_texel, 0.5
 
 bool may_be_dark(ShadowPoint point) { return point.covered; }
 
-#if LIGHT_AREA
-// Returns a vector's parts along u, v and the way toward the light, in the point's face.
-vec3 in_view(ShadowPoint point, vec3 v) { return turned_back(v) * face_axes(point.position); }
-
-float view_distance_m(ShadowPoint point) { return largest(point.position); }
-#endif
-
 // Returns the face that serves the point, in OpenGL's order; -1: none.
 int shadow_layer(ShadowPoint point) {
     vec3 back = face_axes(point.position)[2];

@@ -38,19 +38,6 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     return point;
 }
 
-#if LIGHT_AREA
-// Returns a vector's parts along u, v and the way toward the light, in the point's view.
-vec3 in_view(ShadowPoint point, vec3 v) {
-    ViewRecord view = light.views[point.view];
-    return vec3(dot(v, view.axis_u.xyz), dot(v, view.axis_v.xyz), dot(v, view.axis_back.xyz));
-}
-
-float view_distance_m(ShadowPoint point) {
-    ViewRecord view = light.views[point.view];
-    return view.axis_back.w / max(point.reference - view.numeric.z, 1e-30);
-}
-#endif
-
 float shadow_share(ShadowPoint point) {
     ViewRecord view = light.views[point.view];
     return perspective_share(point.reference, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
