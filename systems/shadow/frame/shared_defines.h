@@ -8,7 +8,7 @@ namespace gnomon::shadow {
 struct SharedRow {
     bool linear_taps = false;  // its sampler would blend four results of comparing
     bool ray_masks = false;    // casters may be alpha-masked
-    bool antialias = false;    // as ShaderKey::antialias, for lights with LightRecord::low's w
+    bool antialias = false;    // as AreaShares::marked, for lights with LightRecord::low's w
     std::string reach_texel;   // GLSL of ShaderKey::reach_texel
 };
 
