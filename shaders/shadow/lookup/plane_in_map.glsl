@@ -1,7 +1,8 @@
-// Slope of a receiver's plane over the texels of a map.
+// Slope of a receiver's plane over the texels of a map, and the steps on it. shadow_slope() of
+// shadow/lookup/kinds/map_2d.glsl has the slope alone.
 
 // Returns a row of a matrix, without its last number.
-vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
+vec3 map_row(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
 // Changes of u, v and depth around a place of a map, along the world's axes and times w there. A plane stays one under
 // any projection: its slope follows from two of its directions.
@@ -12,10 +13,10 @@ struct MapGradients {
 
 MapGradients map_gradients(mat4 map_from_anchor, vec3 map) {
     MapGradients found;
-    vec3 along_w = row_xyz(map_from_anchor, 3);
-    found.along_u = row_xyz(map_from_anchor, 0) - map.x * along_w;
-    found.along_v = row_xyz(map_from_anchor, 1) - map.y * along_w;
-    found.along_depth = row_xyz(map_from_anchor, 2) - map.z * along_w;
+    vec3 along_w = map_row(map_from_anchor, 3);
+    found.along_u = map_row(map_from_anchor, 0) - map.x * along_w;
+    found.along_v = map_row(map_from_anchor, 1) - map.y * along_w;
+    found.along_depth = map_row(map_from_anchor, 2) - map.z * along_w;
     found.ray = cross(found.along_u, found.along_v);
     return found;
 }

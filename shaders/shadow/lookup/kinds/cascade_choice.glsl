@@ -8,6 +8,3 @@ int cascade_at(float distance_m) {
     while (i + 1 < light.options.x && distance_m > light.views[i].anchor_from_camera.w) ++i;
     return i;
 }
-
-// Returns the first cascade that may serve a place.
-int first_cascade(vec3 position_ca) { return light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0; }

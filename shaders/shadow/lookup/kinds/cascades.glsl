@@ -53,7 +53,7 @@ float share_toward_border(ShadowPoint point) {
 
 // Returns the first cascade that may serve a place, and the last. The first of these with the place in its map serves it.
 ivec2 serving_views(vec3 position_ca) {
-    return ivec2(first_cascade(position_ca), light.options.x - 1);
+    return ivec2(light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0, light.options.x - 1);
 }
 
 // Cascade of the last lookup. A second lookup starts after it.

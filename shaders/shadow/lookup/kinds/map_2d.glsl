@@ -7,7 +7,6 @@
 #include "shadow/lookup/lookup_debug.glsl"
 #include "shadow/lookup/tap_radius.glsl"
 #include "shadow/lookup/light_size.glsl"
-#include "shadow/lookup/plane_in_map.glsl"
 #include "shadow/passes/prefilter/linear_distance.glsl"
 
 struct ShadowPoint {
@@ -30,17 +29,26 @@ struct ShadowPoint {
     LookupFacts facts;
 };
 
+vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
+
 #include SHADOW_FLAT_MAP
 
-// Returns the slope of the plane that is carried to other texels: reversed depth per texel along u and v.
+// Returns the slope of the plane that is carried to other texels: reversed depth per texel along u and v. A plane stays
+// one under any projection: its slope follows from how u, v and depth change along two of its directions.
 vec2 shadow_slope(ShadowPoint point, vec3 normal) {
     mat4 map_from_anchor = light.views[point.view].map_from_anchor;
     vec4 projected = map_from_anchor * vec4(point.carried_aa, 1.0);
     vec3 map = projected.xyz / projected.w;
-    MapGradients around = map_gradients(map_from_anchor, map);
-    float facing = facing_ray(around, normal);
-    vec3 over_u = step_over_u(around, normal, facing, point.texel_uv.x), over_v = step_over_v(around, normal, facing, point.texel_uv.y);
-    return vec2(dot(over_u, around.along_depth), dot(over_v, around.along_depth));
+    vec3 along_w = row_xyz(map_from_anchor, 3);
+    vec3 along_u = row_xyz(map_from_anchor, 0) - map.x * along_w;
+    vec3 along_v = row_xyz(map_from_anchor, 1) - map.y * along_w;
+    vec3 along_depth = row_xyz(map_from_anchor, 2) - map.z * along_w;
+    vec3 ray = cross(along_u, along_v);
+    float facing = dot(ray, normal);
+    float least = kNormalError_rad * length(ray);
+    if (abs(facing) < least) facing = facing < 0.0 ? -least : least;
+    vec3 over_u = cross(along_v, normal) * (point.texel_uv.x / facing), over_v = cross(normal, along_u) * (point.texel_uv.y / facing);
+    return vec2(dot(over_u, along_depth), dot(over_v, along_depth));
 }
 
 // Returns whether the point has to be looked up. If not, it is lit.

@@ -39,7 +39,8 @@ TintPlace tint_place(vec3 position_ca) {
     TintPlace best;
     best.view = -1;
     best.inside = kSeam;
-    for (int view = kIsSun ? first_cascade(position_ca) : 0; view < light.options.x; ++view) {
+    bool by_distance = kIsSun && light.options.z != 0;
+    for (int view = by_distance ? cascade_at(fitted_distance_m(position_ca)) : 0; view < light.options.x; ++view) {
         if (kIsSun && best.view >= 0) break;
         TintPlace place = place_in_tint(view, position_ca);
         if (place.inside > best.inside) best = place;
