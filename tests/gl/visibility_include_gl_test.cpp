@@ -235,7 +235,10 @@ protected:
     }
 
     /// Of rows that ask for it: the cone from half_covered()'s receivers to the source is a few texels wide at the casters.
-    const LightItem kSource{.source_radius_m = 0.3f, .sun_radius_rad = 0.05f};
+    const LightItem kSource = [] {
+        LightItem light;
+        light.source_radius_m = 0.3f, light.sun_radius_rad = 0.05f;
+        return light; }();
     static constexpr float kWeights = 1e-6f;  // a sampler's weights sum up to 1 but for rounding
     static constexpr float kMiddle = 0.5f;  // a depth between near and far
     static constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};

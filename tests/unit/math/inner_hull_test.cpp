@@ -21,7 +21,7 @@ private:
     std::mt19937_64 random_;
 };
 
-InnerHull hull_of(const std::vector<glm::dvec3>& points) {
+InnerHull inner_hull(const std::vector<glm::dvec3>& points) {
     InnerHull hull;
     hull.build(points);
     return hull;
@@ -47,7 +47,7 @@ double beyond(const Aabb& box, const std::vector<glm::dvec3>& points, RandomPoin
 
 TEST(InnerHull, ABoxContainsItselfAndNothingLarger) {
     const Aabb box{{-1.0, 2.0, 3.0}, {4.0, 5.0, 9.0}};
-    const InnerHull hull = hull_of(corners_of(box));
+    const InnerHull hull = inner_hull(corners_of(box));
     EXPECT_EQ(hull.normals().size(), 12u);
     EXPECT_TRUE(hull.contains(box));
     EXPECT_TRUE(hull.contains({{0.0, 3.0, 4.0}, {1.0, 4.0, 5.0}}));
@@ -61,7 +61,7 @@ TEST(InnerHull, ABoxContainsItselfAndNothingLarger) {
 }
 
 TEST(InnerHull, CornersOfATetrahedronsBoxAreOutside) {
-    const InnerHull hull = hull_of({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+    const InnerHull hull = inner_hull({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
     EXPECT_TRUE(hull.contains({glm::dvec3(0.05), glm::dvec3(0.3)}));
     EXPECT_FALSE(hull.contains({glm::dvec3(0.05), glm::dvec3(0.4)})) << "its corner is beyond the slanting facet";
 }
@@ -75,7 +75,7 @@ TEST(InnerHull, ContainsWhatLiesInTheHullOfRandomPoints) {
         std::vector<glm::dvec3> points;
         const int count = 4 + round;
         for (int i = 0; i < count; ++i) points.push_back(offset + random.vector(scale));
-        const InnerHull hull = hull_of(points);
+        const InnerHull hull = inner_hull(points);
         for (int i = 0; i < 20; ++i) {
             const glm::dvec3 middle = offset + random.vector(0.6 * scale), half = glm::abs(random.vector(0.1 * scale));
             const Aabb box{middle - half, middle + half};
@@ -90,11 +90,11 @@ TEST(InnerHull, ContainsWhatLiesInTheHullOfRandomPoints) {
 
 TEST(InnerHull, PointsOfAPlaneOrFewOrNotFiniteContainNothing) {
     const Aabb point{glm::dvec3(0.25, 0.25, 0.0), glm::dvec3(0.25, 0.25, 0.0)};
-    EXPECT_FALSE(hull_of({}).contains(point));
-    EXPECT_FALSE(hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).contains(point));
-    EXPECT_FALSE(hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 1e-14}}).contains(point));
-    EXPECT_FALSE(hull_of({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).contains({glm::dvec3(0.0), glm::dvec3(0.0)}));
-    EXPECT_FALSE(hull_of({{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, kNan}, {0, 0, 1}}).contains(point));
+    EXPECT_FALSE(inner_hull({}).contains(point));
+    EXPECT_FALSE(inner_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).contains(point));
+    EXPECT_FALSE(inner_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 1e-14}}).contains(point));
+    EXPECT_FALSE(inner_hull({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).contains({glm::dvec3(0.0), glm::dvec3(0.0)}));
+    EXPECT_FALSE(inner_hull({{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, kNan}, {0, 0, 1}}).contains(point));
 }
 
 TEST(InnerHull, GridsOfPointsAreAsLargeAsTheirBox) {
@@ -102,7 +102,7 @@ TEST(InnerHull, GridsOfPointsAreAsLargeAsTheirBox) {
     for (int x = 0; x < 4; ++x)
         for (int y = 0; y < 4; ++y)
             for (int z = 0; z < 4; ++z) points.emplace_back(x, y, z);
-    const InnerHull hull = hull_of(points);
+    const InnerHull hull = inner_hull(points);
     EXPECT_TRUE(hull.contains({glm::dvec3(0.0), glm::dvec3(3.0)}));
     EXPECT_FALSE(hull.contains({glm::dvec3(0.0), glm::dvec3(3.0, 3.0, 3.1)}));
 }
