@@ -37,12 +37,26 @@ inline bool is_area(std::string_view define) {
                        [&](const shadow::LightKindRow& row) { return row.define == define && light_facts(row.kind).area(); });
 }
 
+/// Returns whether the row of an area light and a filter is compiled. Filters that see the middle alone look it up as a
+/// point, and kinds share all but their places: rectangles stand for the others, of which pcss and rays see the places.
+inline bool is_area_row(LightKind kind, const shadow::FilterRow& filter) {
+    const bool sees_source = filter.width == shadow::FilterWidth::source;
+    if (filter.rays) return sees_source;
+    return kind == LightKind::rectangle ? sees_source || filter.id == ShadowFilter::hard : filter.id == ShadowFilter::pcss;
+}
+
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns and
 /// points in perspective, suns warped; and of those that ask by rays, with and without masked casters and maps.
 inline std::vector<shadow::ShaderKey> all_rows() {
     std::vector<shadow::ShaderKey> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
         rows.push_back({kind.define, {}, {}});
+        if (light_facts(kind.kind).area()) {
+            for (const shadow::FilterRow& filter : map_filters())
+                if (is_area_row(kind.kind, filter))
+                    rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, false, reads_depths(filter)});
+            continue;
+        }
         for (const shadow::FilterRow& filter : map_filters())
             for (const bool fades : {false, true})
                 if (!fades || kind.texture != gl::TextureKind::cube)  // a cube has nothing to fade into
@@ -84,7 +98,7 @@ inline std::vector<shadow::ShaderKey> all_rows() {
         for (const shadow::FilterRow& filter : shadow::filter_table())
             for (const bool masks : {false, true})
                 for (const bool sheets : {false, true})
-                    if (filter.rays) {
+                    if (filter.rays && (!light_facts(kind.kind).area() || (is_area_row(kind.kind, filter) && !masks))) {
                         rows.push_back({.kind_define = kind.define,
                                         .kind_file = kind.file,
                                         .filter_file = filter.file,
@@ -93,7 +107,7 @@ inline std::vector<shadow::ShaderKey> all_rows() {
                                         .rays = true,
                                         .ray_masks = masks,
                                         .whole_source = is_area(kind.define) && filter.width == shadow::FilterWidth::source});
-                        if (kind.texture != gl::TextureKind::cube) continue;
+                        if (kind.kind != LightKind::point) continue;
                         rows.push_back(rows.back());
                         rows.back().kind_file = shadow::kPerspectiveFile;
                     }

@@ -15,10 +15,13 @@ class ShaderRows : public GlTest {};
 
 TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto programs = all_programs();
+    constexpr std::size_t kArea = 4, kPlain = 3;  // kinds of lights
     const std::size_t kinds = shadow::light_kind_table().size(), filters = map_filters().size();
+    ASSERT_EQ(kinds, kArea + kPlain);
     const auto rows_of = [&](std::size_t some) {  // all but cubes fade; perspective and warped suns, aimed points
-        return kinds * 2 * some + (kinds - 1) * some + 4 * some;
+        return kPlain * 2 * some + (kPlain - 1) * some + 4 * some;
     };
+    constexpr std::size_t kAreaRows = 3 + 3, kAreaPrefiltered = 1;  // three of rectangles, one of each other kind
     const auto prefiltered = static_cast<std::size_t>(
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
     const auto by_triangles = static_cast<std::size_t>(
@@ -26,19 +29,20 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     constexpr std::size_t kMaskedOrNot = 2;
     // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an
     // output; blended surfaces, catchers, verdicts and rays have their own, masked or not.
-    const std::size_t by_rays = (kinds + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters);
+    const std::size_t by_rays = (kPlain + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters) + kArea;
     const std::size_t with_sheets = 2 * kinds + 4 * by_rays;
     constexpr std::size_t kOutputs = 4, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
     // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not. Catchers, coloured or not, and
     // their shares. Luminance, and tone curve with a background or without.
     constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3;
     // Those by a pixel's footprint, too, and those of masked casters.
-    const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays;
+    const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays +
+                             kAreaRows + kAreaPrefiltered;
     std::size_t views_programs = 1;  // lines
     for (const debug::ViewRow& view : debug::view_table()) {
         if (view.drawer->medium == debug::ViewMedium::flat) ++views_programs;
         if (view.drawer->medium != debug::ViewMedium::lookups) continue;
-        EXPECT_GT(lookup_rows(view.name).size(), kinds);  // perspective and warped suns
+        EXPECT_GT(lookup_rows(view.name).size(), kPlain);  // perspective and warped suns
         views_programs += lookup_rows(view.name).size();
     }
     ASSERT_EQ(programs.size(), rows * kOutputs + with_sheets + kCommon + kDepth + kCompute + kBlur +

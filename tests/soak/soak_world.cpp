@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <iterator>
+#include <vector>
 
 #include "gnomon/components.h"
 #include "systems/extract/light_facts.h"
@@ -16,6 +18,24 @@ namespace gnomon {
 namespace {
 
 constexpr double kArena_m = 8.0;
+
+/// A kind of light with a filter.
+struct Row {
+    LightKind kind;
+    ShadowFilter filter;
+};
+
+/// Returns all kinds with all filters, but of area lights a rectangle alone, by pcss: programs of area lights take long
+/// to compile, and filters that see the middle alone look it up as a point.
+std::vector<Row> soaked_rows() {
+    std::vector<Row> rows;
+    for (const shadow::LightKindRow& kind : shadow::light_kind_table())
+        for (const shadow::FilterRow& filter : shadow::filter_table())
+            if (!light_facts(kind.kind).area() ||
+                (kind.kind == LightKind::rectangle && filter.id == ShadowFilter::pcss))
+                rows.push_back({kind.kind, filter.id});
+    return rows;
+}
 
 }  // namespace
 
@@ -38,6 +58,7 @@ void SoakWorld::add_light(LightKind kind, ShadowFilter filter) {
     const ecs::Entity light = world_.add_light(kind, place(3.0, 8.0), "light", false);
     LightShadow shadow;
     shadow.filter = filter;
+    shadow.translucent_casters = false;  // use_every_light() tries them
     shadow.resolution_px = kLeastMap_px << std::uniform_int_distribution<std::uint32_t>(0, kSizes - 1)(random_);
     world_.registry.emplace<LightShadow>(light, shadow);
     lights_.push_back(light);
@@ -58,7 +79,7 @@ void SoakWorld::remove_one(std::vector<ecs::Entity>& from) {
 
 void SoakWorld::change_light(ecs::Entity light) {
     if (!world_.registry.has<LightShadow>(light)) {
-        world_.registry.emplace<LightShadow>(light);
+        world_.registry.emplace<LightShadow>(light, LightShadow{.translucent_casters = false});
     } else if (chance(0.5)) {
         world_.registry.remove<LightShadow>(light);
     } else {
@@ -66,18 +87,16 @@ void SoakWorld::change_light(ecs::Entity light) {
     }
     if (chance(0.2))
         world_.registry.patch<Light>(light, [&](Light& l) {
-            const auto kinds = static_cast<unsigned>(shadow::light_kind_table().size());
-            l.kind = static_cast<LightKind>(std::uniform_int_distribution<unsigned>(0, kinds - 1)(random_));
-            if (light_facts(l.kind).area()) l.source_radius_m = 0.1f;
+            constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+            l.kind = kKinds[std::uniform_int_distribution<std::size_t>(0, std::size(kKinds) - 1)(random_)];
         });
 }
 
 void SoakWorld::churn_lights() {
-    const auto kinds = static_cast<unsigned>(shadow::light_kind_table().size());
-    const auto filters = static_cast<unsigned>(shadow::filter_table().size());
     if (lights_.size() < kMostLights && chance(0.15)) {
-        const auto kind = static_cast<LightKind>(std::uniform_int_distribution<unsigned>(0, kinds - 1)(random_));
-        add_light(kind, static_cast<ShadowFilter>(std::uniform_int_distribution<unsigned>(0, filters - 1)(random_)));
+        const std::vector<Row> rows = soaked_rows();
+        const Row row = rows[std::uniform_int_distribution<std::size_t>(0, rows.size() - 1)(random_)];
+        add_light(row.kind, row.filter);
     }
     if (chance(0.1)) remove_one(lights_);
     if (lights_.empty()) return;
@@ -127,19 +146,22 @@ void SoakWorld::leave_to_rays(const std::function<void()>& run_frame) {
 constexpr std::uint32_t kFramesToRest = 2 + lighting::KeptVisibility::kStaticFrames + 1;
 
 void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
-    for (const shadow::LightKindRow& kind : shadow::light_kind_table())
-        for (const shadow::FilterRow& filter : shadow::filter_table()) {
-            add_light(kind.kind, filter.id);
+    for (const Row& row : soaked_rows()) {
+        add_light(row.kind, row.filter);
+        for (const bool tints : {true, false})
             for (const std::uint32_t cascades : {1u, 4u, 0u}) {  // what fades into the next one is another program
-                world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) { s.cascades = cascades; });
+                world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) {
+                    s.cascades = cascades;
+                    s.translucent_casters = tints;
+                });
                 for (std::uint32_t i = 0; i < kFramesToRest; ++i) run_frame();
             }
-            if (filter.rays) leave_to_rays(run_frame);
-            world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
-            run_frame();
-            world_.registry.destroy(lights_.back());
-            lights_.pop_back();
-        }
+        if (shadow::filter_row(row.filter).rays) leave_to_rays(run_frame);
+        world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
+        run_frame();
+        world_.registry.destroy(lights_.back());
+        lights_.pop_back();
+    }
 }
 
 void SoakWorld::clear(const std::function<void()>& run_frame) {
