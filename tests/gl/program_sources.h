@@ -38,7 +38,7 @@ inline bool is_area(std::string_view define) {
 }
 
 /// Returns whether the row of an area light and a filter is compiled. Filters that see the middle alone look it up as a
-/// point, and kinds share all but their places: rectangles stand for the others, of which pcss and rays see the places.
+/// point. Kinds share all but their places: pcss and rays show these, rectangles stand for the rest.
 inline bool is_area_row(LightKind kind, const shadow::FilterRow& filter) {
     const bool sees_source = filter.width == shadow::FilterWidth::source;
     if (filter.rays) return sees_source;

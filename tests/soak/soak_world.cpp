@@ -148,7 +148,9 @@ constexpr std::uint32_t kFramesToRest = 2 + lighting::KeptVisibility::kStaticFra
 void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
     for (const Row& row : soaked_rows()) {
         add_light(row.kind, row.filter);
-        for (const bool tints : {true, false})
+        // One filter by maps and one by rays: others are tinted by the same text.
+        const bool by_glass = row.filter == ShadowFilter::hard || row.filter == ShadowFilter::exact;
+        for (const bool tints : {by_glass, false})
             for (const std::uint32_t cascades : {1u, 4u, 0u}) {  // what fades into the next one is another program
                 world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) {
                     s.cascades = cascades;
