@@ -25,8 +25,8 @@ struct Row {
     ShadowFilter filter;
 };
 
-/// Returns all kinds with all filters, but of area lights a rectangle alone, by pcss: programs of area lights take long
-/// to compile, and filters that see the middle alone look it up as a point.
+/// Returns all kinds with all filters. A rectangle with pcss stands for area lights: their programs take long to compile,
+/// and other filters look them up as points.
 std::vector<Row> soaked_rows() {
     std::vector<Row> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
