@@ -83,7 +83,8 @@ TEST_P(VertexColours, AreThePicturesColours) {
     const std::uint32_t glass = add_material({.name = "glass", .metallic = 0.0f, .alpha_mode = assets::AlphaMode::blend});
     place(add_card(matt, {1, 0, 0, 1}, {0, 1, 0, 1}), {.translation_m = {0.0, 1.0, 0.0}});
     const ecs::Entity blended = place(add_card(glass, {0, 0, 1, 1}, {0, 0, 1, 0}), {.translation_m = {0.0, 2.0, 0.0}});
-    add_light({.kind = LightKind::directional, .intensity = 2000.0f}, {}, {0.0, -1.0, 0.0}, {.filter = GetParam(), .resolution_px = 512});
+    add_light({.kind = LightKind::directional, .intensity = 2000.0f}, {}, {0.0, -1.0, 0.0},
+              {.filter = GetParam(), .resolution_px = 512, .translucent_casters = false});
     const auto pixel_at = [&](double z) {
         const double u = z / (kSeenHalf_m * settings.viewport_px.x / settings.viewport_px.y);
         const auto x = static_cast<std::size_t>((0.5 * u + 0.5) * settings.viewport_px.x);
