@@ -127,7 +127,8 @@ LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ShaderKey& wan
     shadow::ShaderKey row = wanted;
     const bool reads_answers = row.sheets && (output == ShaderPass::picture || output == ShaderPass::visibility ||
                                               output == ShaderPass::found_middles);
-    if (row.rays && output != ShaderPass::crossed_areas) row.area_shares = shadow::AreaShares::none;
+    const bool marks = row.area_shares == shadow::AreaShares::marked;
+    if (marks && row.rays && output != ShaderPass::crossed_areas) row.area_shares = shadow::AreaShares::none;
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
     row.sheets = wanted.sheets;
     row.tint = reads_tint(output) ? wanted.tint : shadow::TintLookup::none;
