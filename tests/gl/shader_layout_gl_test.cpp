@@ -171,7 +171,7 @@ std::vector<Block> expected_blocks() {
           {"listed_pixels[0]", sizeof(std::uint32_t)}}},
         {GL_SHADER_STORAGE_BLOCK, "SheetEndBuffer", 2, shadow::pyramid_bytes(1, 1), {{"sheet_ends[0]", 0}}},
         {GL_SHADER_STORAGE_BLOCK, "RayMaskBuffer", 7, sizeof(std::uint32_t), {{"ray_masks[0]", 0}}},
-        {GL_SHADER_STORAGE_BLOCK, "AreaTable", 3, sizeof(glm::vec4), {{"area_lobes[0]", 0}}},
+        {GL_SHADER_STORAGE_BLOCK, "AreaTable", 4, sizeof(glm::vec4), {{"area_lobes[0]", 0}}},
         {GL_SHADER_STORAGE_BLOCK,
          "LineBuffer",
          0,
