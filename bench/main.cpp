@@ -102,11 +102,10 @@ int run_accuracy(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
     if (!arguments.rows.empty()) return run_rows(*stage.value(), arguments);
-    const auto accuracy = measure_accuracy(
-        *stage.value(), {.timed_frames = arguments.repeat,
-                         .with_edges = true,
-                         .area_side = arguments.area_side,
-                         .noise_rounds = arguments.noise_rounds});
+    const auto accuracy = measure_accuracy(*stage.value(), {.timed_frames = arguments.repeat,
+                                                            .with_edges = true,
+                                                            .area_side = arguments.area_side,
+                                                            .noise_rounds = arguments.noise_rounds});
     if (!accuracy) return fail(accuracy.error());
     if (auto error = put_out(arguments, accuracy_table(accuracy.value()), accuracy_json(accuracy.value())))
         return fail(*error);

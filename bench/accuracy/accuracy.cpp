@@ -182,7 +182,8 @@ void time_lights(Stage& stage, const AccuracyOptions& options, const std::vector
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];
         light.redrawn_differs = options.noise_rounds > 1 ? 0 : light.measured.size();
-        if (options.noise_rounds <= 1 && stage.frame().read_visibility(indices[k], redrawn) && redrawn.size() == light.measured.size())
+        if (options.noise_rounds <= 1 && stage.frame().read_visibility(indices[k], redrawn) &&
+            redrawn.size() == light.measured.size())
             light.redrawn_differs = count_differing(light.measured, redrawn);
         light.gpu_us = spread_of(gpu_us[k]);
         light.cpu_us = spread_of(cpu_us[k]);

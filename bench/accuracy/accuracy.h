@@ -73,7 +73,8 @@ struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_edges = false;         // edges are judged, by a square of rays at each, which takes longer than all else
     std::uint32_t area_side = 0;     // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
-    std::uint32_t noise_rounds = 1;  // number of frames, each with noise of its own (FrameSettings::noise_frame); their mean is judged
+    std::uint32_t noise_rounds =
+        1;  // number of frames, each with noise of its own (FrameSettings::noise_frame); their mean is judged
     double telling = 1.0;            // factor on predicted texels, see EdgeBounds::at()
     double stating = 1.0;  // factor on the stated width of what is resolved; below 1 shows how a broken one looks
     double wished = 1.0;   // factor on max_error_px, see EdgeBounds::promised()

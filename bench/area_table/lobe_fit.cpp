@@ -16,9 +16,9 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 constexpr double kLeastAlpha = 1.0e-3, kLeastCosine = 1.0e-4;  // as in brdf.glsl
 constexpr int kSide = 32;                                      // samples along a side of the unit square
-constexpr double kHold = 1.0e-3;      // what a lean of alpha off the mean costs, beside a miss of at most 2
+constexpr double kHold = 1.0e-3;  // what a lean of alpha off the mean costs, beside a miss of at most 2
 constexpr std::array<double, 4> kRound{0.0, 1.5, 1.5, 0.0};  // what narrow lobes are like, seen along the normal
-constexpr double kLeastAbove = 0.5;  // a lobe with its middle below the surface fits nothing
+constexpr double kLeastAbove = 0.5;                          // a lobe with its middle below the surface fits nothing
 constexpr std::size_t kParameters = 4;
 constexpr int kMostSteps = 150;
 constexpr double kDone = 1.0e-4;  // relative spread of the simplex' values
@@ -60,14 +60,14 @@ double smith_of(double alpha, double cosine) {
     return std::sqrt(cosine * cosine * (1.0 - a2) + a2);
 }
 
-/// Returns a direction that the viewer sees reflected, by visible normals (Heitz 2018, "Sampling the GGX Distribution of
-/// Visible Normals").
+/// Returns a direction that the viewer sees reflected, by visible normals (Heitz 2018, "Sampling the GGX Distribution
+/// of Visible Normals").
 glm::dvec3 reflected_at(double alpha, double cosine, const glm::dvec2& at) {
     const glm::dvec3 v = viewer(cosine);
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * v.x, alpha * v.y, v.z));
     const double across = stretched.x * stretched.x + stretched.y * stretched.y;
-    const glm::dvec3 first = across > 0.0 ? glm::dvec3(-stretched.y, stretched.x, 0.0) / std::sqrt(across)
-                                          : glm::dvec3(1.0, 0.0, 0.0);
+    const glm::dvec3 first =
+        across > 0.0 ? glm::dvec3(-stretched.y, stretched.x, 0.0) / std::sqrt(across) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 second = glm::cross(stretched, first);
     const double radius = std::sqrt(at.x), angle_rad = 2.0 * kPi * at.y, share = 0.5 * (1.0 + stretched.z);
     const double x = radius * std::cos(angle_rad);
@@ -231,8 +231,10 @@ FittedLobe fit_lobe(LobePart part, double alpha, double cosine, std::span<const 
     const auto best_from = [&](Parameters from) {
         from[0] = mean;
         if (round) from[3] = 0.0;
-        const Parameters near = least_near(from, {0.0, 0.2 * from[1], round ? 0.0 : 0.2 * from[2], round ? 0.0 : 0.2}, value);
-        return least_near(near, {round ? 0.0 : 0.1, 0.05 * near[1], round ? 0.0 : 0.05 * near[2], round ? 0.0 : 0.05}, held);
+        const Parameters near =
+            least_near(from, {0.0, 0.2 * from[1], round ? 0.0 : 0.2 * from[2], round ? 0.0 : 0.2}, value);
+        return least_near(near, {round ? 0.0 : 0.1, 0.05 * near[1], round ? 0.0 : 0.05 * near[2], round ? 0.0 : 0.05},
+                          held);
     };
     Parameters p = best_from(kRound);
     for (const FittedLobe& start : starts)

@@ -7,7 +7,8 @@
 /// Neubelt, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", 2016).
 namespace gnomon::bench {
 
-/// One lobe: the part above the surface of a clamped cosine, turned and stretched. Angle and lengths are shares of alpha.
+/// One lobe: the part above the surface of a clamped cosine, turned and stretched. Angle and lengths are shares of
+/// alpha.
 struct FittedLobe {
     double lean = 0.0;                 // angle from the mirrored direction toward the normal
     double along = 1.0, across = 1.0;  // widths in the plane of normal and viewer, and across it
@@ -32,8 +33,8 @@ double lobe_at(LobePart part, double alpha, double cosine, const glm::dvec3& tow
 /// Returns the fitted density above the surface; its integral is 1.
 double fitted_at(const FittedLobe& lobe, double alpha, double cosine, const glm::dvec3& toward);
 
-/// Fits a lobe. `starts`: lobes of neighbours; a search begins from each, and from a round lobe. Equal input gives equal
-/// output.
+/// Fits a lobe. `starts`: lobes of neighbours; a search begins from each, and from a round lobe. Equal input gives
+/// equal output.
 FittedLobe fit_lobe(LobePart part, double alpha, double cosine, std::span<const FittedLobe> starts);
 
 }  // namespace gnomon::bench

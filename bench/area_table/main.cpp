@@ -39,8 +39,8 @@ int main(int count, char** arguments) {
     file << std::setprecision(7) << std::showpoint;
     for (std::size_t i = 0; i < lobes[0].size(); ++i) {
         for (const std::vector<FittedLobe>& of : lobes)
-            file << (&of == lobes ? "{{" : ", {") << of[i].lean << "f, " << of[i].along << "f, " << of[i].across << "f, "
-                 << of[i].skew << "f, " << of[i].size << "f}";
+            file << (&of == lobes ? "{{" : ", {") << of[i].lean << "f, " << of[i].along << "f, " << of[i].across
+                 << "f, " << of[i].skew << "f, " << of[i].size << "f}";
         file << "},\n";
     }
     return file.good() ? 0 : 1;

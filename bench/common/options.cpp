@@ -20,7 +20,8 @@ constexpr unsigned kMostThreads = 1024;
 constexpr double kLeastStep_px = 0.01, kMostStep_px = 100.0;
 
 void add_scene(CLI::App& command, Arguments& arguments) {
-    command.add_option("--scene", arguments.scenes, "glTF or GLB, valley, spheres or panes (default: the built-in courtyard)");
+    command.add_option("--scene", arguments.scenes,
+                       "glTF or GLB, valley, spheres or panes (default: the built-in courtyard)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every light, as the game's --set")

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 8> kKnownExtensions = {
-    "EXT_lights_area",      "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_transmission",
+    "EXT_lights_area",     "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_transmission",
     "KHR_materials_unlit", "KHR_materials_volume", "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 /// Members that tinygltf parses. Hiding all others keeps its parser away from them.

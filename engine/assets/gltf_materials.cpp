@@ -202,8 +202,9 @@ glm::vec3 transmission_of(Document& document, const json& raw, const std::string
     glm::vec3 passed(factor);
     if (!(thickness_m > 0.0) || !(distance_m > 0.0) || !volume.contains("attenuationColor")) return passed;
     for (int i = 0; i < 3; ++i) {
-        const float colour = unit_float(document, volume.at("attenuationColor").at(static_cast<std::size_t>(i)).get<double>(),
-                                        in + "volume/attenuationColor");
+        const float colour =
+            unit_float(document, volume.at("attenuationColor").at(static_cast<std::size_t>(i)).get<double>(),
+                       in + "volume/attenuationColor");
         passed[i] *= static_cast<float>(std::pow(static_cast<double>(colour), 0.5 * thickness_m / distance_m));
     }
     return passed;

@@ -23,12 +23,12 @@ struct BvhTriangle {
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
-/// Triangles of a mesh that a tree has. blocking: those of opaque and masked casters, which let no light through. shown:
-/// those of surfaces that pictures show as opaque: all but blended ones.
+/// Triangles of a mesh that a tree has. blocking: those of opaque and masked casters, which let no light through.
+/// shown: those of surfaces that pictures show as opaque: all but blended ones.
 enum class MeshPart : std::uint8_t { blocking, shown };
 
-/// Tree over triangles of a mesh, in mesh space. Excludes those of a rigid mesh with a corner that is not finite. A deformed mesh's triangles follow its vertices, rounded to float once, as on
-/// the GPU.
+/// Tree over triangles of a mesh, in mesh space. Excludes those of a rigid mesh with a corner that is not finite. A
+/// deformed mesh's triangles follow its vertices, rounded to float once, as on the GPU.
 class MeshBvh {
 public:
     MeshBvh() = default;

@@ -70,8 +70,8 @@ struct Mesh {
     std::shared_ptr<const Deformer> deformer;
 };
 
-/// What alpha does. `mask`: a hole where it is below the cutoff. `blend`: the share that the surface covers; the rest of
-/// the light passes through it.
+/// What alpha does. `mask`: a hole where it is below the cutoff. `blend`: the share that the surface covers; the rest
+/// of the light passes through it.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// Surface, as glTF's metallic-roughness model.

@@ -317,8 +317,8 @@ public:
     /// Reads how much of a light arrives at each pixel: a float per pixel, bottom row first. 1: lit. 0: shadowed,
     /// facing away or out of range. -1: no surface. Returns false if there is none.
     bool read_visibility(ecs::Entity light, std::vector<float>& values);
-    /// Reads the colour that a light's translucent casters let through to each pixel's surface: red, green, blue, and 1,
-    /// in the same order. 1: all of it, also where there is no surface. Returns false if there is no picture.
+    /// Reads the colour that a light's translucent casters let through to each pixel's surface: red, green, blue, and
+    /// 1, in the same order. 1: all of it, also where there is no surface. Returns false if there is no picture.
     bool read_tint(ecs::Entity light, std::vector<glm::vec4>& values);
 
     /// Returns the share of a light that reaches a place, 0 to 1, for gameplay. Rays decide, independent of cameras and

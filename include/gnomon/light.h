@@ -13,8 +13,9 @@ inline constexpr float kMostSourceRadius_m = 1.0e4f;
 
 /// Kind of a light. `directional`: a sun, with parallel rays. `spot`: a cone from a place. `point`: in all directions.
 /// The others are area lights: surfaces that shine alike from every place. `rectangle` and `disc` lie in their own XY
-/// plane and shine from one side, along -Z. `sphere` shines all round. `tube` is a cylinder along its X axis that shines
-/// from its side, not from its ends. Nothing in the way of an area light is part of it: it casts no shadow itself.
+/// plane and shine from one side, along -Z. `sphere` shines all round. `tube` is a cylinder along its X axis that
+/// shines from its side, not from its ends. Nothing in the way of an area light is part of it: it casts no shadow
+/// itself.
 enum class LightKind : unsigned char { directional, spot, point, rectangle, disc, sphere, tube };
 /// Returns its name, for example "spot".
 const char* to_text(LightKind kind);
@@ -64,8 +65,8 @@ struct Light {
     /// Angular radius of a sun's disk, radians, 0 to kMostSunRadius_rad. 0: a point. Read by the same filters. The
     /// real sun: 0.00465; a thin cloud before it: 0.05.
     float sun_radius_rad = 0.0f;
-    /// Width of a rectangle along its X axis, or length of a tube, metres, above 0, at most 2 * kMostSourceRadius_m. With
-    /// any other value the light is left out and reported as dropped. Wider: more light and softer shadows.
+    /// Width of a rectangle along its X axis, or length of a tube, metres, above 0, at most 2 * kMostSourceRadius_m.
+    /// With any other value the light is left out and reported as dropped. Wider: more light and softer shadows.
     float width_m = 1.0f;
     /// Height of a rectangle along its Y axis, metres, in the same range.
     float height_m = 1.0f;

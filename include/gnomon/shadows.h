@@ -126,8 +126,8 @@ struct LightDesc {
     std::string name = {};  // in captures and messages; empty: "light" and a number; a repeated one gets .1, .2, …
     Light light = {};       // kind, colour, intensity, range, cone and size
     glm::dvec3 position_m{0.0};  // lamps: world
-    /// Way in which a sun, spot, rectangle or disc shines, world; any length above 0. How a spot's map turns about it is
-    /// Gnomon's choice.
+    /// Way in which a sun, spot, rectangle or disc shines, world; any length above 0. How a spot's map turns about it
+    /// is Gnomon's choice.
     glm::dvec3 direction{0.0, -1.0, 0.0};
     /// Way of the X axis of a rectangle or tube, world; any length. What of it points along `direction` is left out. 0:
     /// Gnomon's choice.

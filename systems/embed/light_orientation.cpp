@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/finite.h"
+#include "engine/math/frustum.h"
 #include "engine/math/projection.h"
 
 namespace gnomon::embed {

@@ -68,8 +68,8 @@ double shown_area_m2(const LightItem& light);
 /// its farthest place from its middle.
 float source_extent(const LightItem& light);
 
-/// Returns an upper bound of the illuminance at a squared distance from the light's middle, lux, by the strongest colour
-/// channel. Parallel rays: the same at any distance.
+/// Returns an upper bound of the illuminance at a squared distance from the light's middle, lux, by the strongest
+/// colour channel. Parallel rays: the same at any distance.
 double illuminance_lux(const LightItem& light, double distance_m2);
 
 /// Returns true unless the place lies behind the plane of a light that shines from one side. `to_light`: its way to the

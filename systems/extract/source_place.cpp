@@ -44,8 +44,9 @@ SourcePlace on_tube(const LightItem& light, const glm::dvec3& to_middle_m, const
     const glm::dvec3 nearest = -to_axis_m / aside_m, around = glm::cross(axis, nearest);
     const double arc_rad = std::acos(radius_m / aside_m), turn_rad = arc_rad * at.y;
     const glm::dvec3 normal = nearest * std::cos(turn_rad) + around * std::sin(turn_rad);
-    SourcePlace place = on_surface(to_middle_m + axis * (0.5 * static_cast<double>(light.width_m) * at.x) + normal * radius_m,
-                                   aside_m * std::cos(turn_rad) - radius_m);
+    SourcePlace place =
+        on_surface(to_middle_m + axis * (0.5 * static_cast<double>(light.width_m) * at.x) + normal * radius_m,
+                   aside_m * std::cos(turn_rad) - radius_m);
     return place;
 }
 

@@ -13,8 +13,8 @@ struct SourcePlace {
     double weight = 0.0;    // share of the light that falls across the way to it; 0: it cannot be seen from there
 };
 
-/// Share of the way to a source at which a ray ends. A ceiling that lies in the plane of its panel is not in the panel's
-/// way.
+/// Share of the way to a source at which a ray ends. A ceiling that lies in the plane of its panel is not in the
+/// panel's way.
 inline constexpr double kBeforeSource = 1.0 - 0x1p-20;
 
 /// Maps a place of the square from -1 to 1 onto a rectangle or tube, or of the unit disk onto a disc or sphere.

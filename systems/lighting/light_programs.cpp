@@ -59,7 +59,9 @@ bool adds_to_picture(ShaderPass output) {
 }
 
 /// Returns true if the output shows light in its colour, and so reads what translucent casters let through.
-bool reads_tint(ShaderPass output) { return adds_to_picture(output) || is_forward(output) || output == ShaderPass::tint; }
+bool reads_tint(ShaderPass output) {
+    return adds_to_picture(output) || is_forward(output) || output == ShaderPass::tint;
+}
 
 /// Returns the file under shaders/ that gives the share of a light that a surface sees.
 std::string_view visible_share_file(ShaderPass output, bool found_before) {
@@ -168,7 +170,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-                              (row.manual_bias ? " manual bias" : "") + (row.area_shares == shadow::AreaShares::marked ? " antialiased" : "") +
+                              (row.manual_bias ? " manual bias" : "") +
+                              (row.area_shares == shadow::AreaShares::marked ? " antialiased" : "") +
                               (row.tint != shadow::TintLookup::none ? " tinted" : "") +
                               (found_before ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
     if (is_forward(output))

@@ -81,7 +81,9 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     const auto lists = [](const shadow::LightingLight& light) { return light.row.sheets; };
     ray_list_.provide(std::any_of(inputs.lights.begin(), inputs.lights.end(), lists), targets_.size_px(),
                       targets_.depth);
-    const auto shares = [](const shadow::LightingLight& light) { return light.row.area_shares == shadow::AreaShares::marked; };
+    const auto shares = [](const shadow::LightingLight& light) {
+        return light.row.area_shares == shadow::AreaShares::marked;
+    };
     edges_.provide(std::any_of(inputs.lights.begin(), inputs.lights.end(), shares), targets_.size_px());
     const auto leaves = [](const shadow::LightingLight& light) { return light.row.triangles; };
     targets_.provide_undecided(std::any_of(inputs.lights.begin(), inputs.lights.end(), leaves));

@@ -131,7 +131,8 @@ private:
     };
     void plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                      const LightingSettings& settings);
-    void plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces, std::uint32_t noise_round, LightPass& pass);
+    void plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces,
+                   std::uint32_t noise_round, LightPass& pass);
     std::uint64_t surfaces_signature(const SceneSnapshot& scene) const;
     void bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const;
     void record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list);

@@ -112,7 +112,8 @@ void LightingTargets::release() {
         device_.destroy(*t);
         *t = {};
     }
-    for (gl::TextureHandle* t : {&depth, &colour, &normals, &material, &light_sum, &luminance, &picture, &visibility, &tint}) {
+    for (gl::TextureHandle* t :
+         {&depth, &colour, &normals, &material, &light_sum, &luminance, &picture, &visibility, &tint}) {
         device_.destroy(*t);
         *t = {};
     }

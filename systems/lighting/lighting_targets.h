@@ -37,9 +37,8 @@ public:
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},
         tint{}, places{}, undecided{};
     gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{},
-        tint_target{},
-        places_target{},     // the surfaces including places
-        undecided_target{};  // light_sum, with `undecided`
+        tint_target{}, places_target{},  // the surfaces including places
+        undecided_target{};              // light_sum, with `undecided`
 
 private:
     void release();

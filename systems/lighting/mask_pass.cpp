@@ -161,7 +161,8 @@ void MaskPass::upload(const MaskInputs& in, gl::CommandList& list) {
         put_record(bytes_, sample * sample_stride_ + import_offset_, record);
     }
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
-        put_record(bytes_, lights_offset_ + i * light_stride_, shadow::in_round(inputs.lights[i].record, in.noise_round));
+        put_record(bytes_, lights_offset_ + i * light_stride_,
+                   shadow::in_round(inputs.lights[i].record, in.noise_round));
     const KeptRecord all{{0, 0, static_cast<int>(size_px_.x), static_cast<int>(size_px_.y)}};
     put_record(bytes_, kept_offset_, all);
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(bytes_));
@@ -308,7 +309,8 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
     }));
     edges_.provide(std::any_of(in.layers.begin(), in.layers.end(),
                                [&](std::uint32_t layer) {
-                                   return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.area_shares == shadow::AreaShares::marked;
+                                   return layer < in.inputs.lights.size() &&
+                                          in.inputs.lights[layer].row.area_shares == shadow::AreaShares::marked;
                                }),
                    size_px_);
     upload(in, list);

@@ -39,8 +39,8 @@ void MaskPass::record_tints(const MaskInputs& in, std::uint32_t sample, gl::Comm
     const std::size_t samples = targets_.size() / in.layers.size();
     const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
     for (std::uint32_t layer = 0; layer < in.layers.size(); ++layer) {
-        list.add(gl::BeginPass{
-            tint_targets_[layer * samples + sample], all, false, 0.0f, true, {1.0f, 1.0f, 1.0f, 1.0f}});
+        list.add(
+            gl::BeginPass{tint_targets_[layer * samples + sample], all, false, 0.0f, true, {1.0f, 1.0f, 1.0f, 1.0f}});
         const shadow::LightingLight* light = tinted(in, layer);
         const gl::ProgramHandle program =
             light ? programs_.row(kept_row(light->row), ShaderPass::tint) : gl::ProgramHandle{};

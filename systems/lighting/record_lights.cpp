@@ -44,9 +44,8 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
             return late ? gl::ProgramHandle{} : programs_.row(row, part);
         };
         const auto made = [&](ShaderPass part) { return made_of(light.row, part); };
-        LightProgram used{{},         light.map,    light.triangles, light.sampler,
-                          light.rays, light.second, light.bounds,    light.ends,
-                          light.tint};
+        LightProgram used{{},           light.map,    light.triangles, light.sampler, light.rays,
+                          light.second, light.bounds, light.ends,      light.tint};
         // Makes the programs of a list of rays, where the light has one.
         const auto finds_rays = [&] {
             if (!lists) return true;
@@ -67,8 +66,8 @@ LightProgram LightingSystem::light_program(const shadow::LightingLight& light, S
         }
         used.program = made(output);
         // A program that only saves time is made when there is time.
-        const bool leaves = !waits && light.row.triangles && light.row.area_shares != shadow::AreaShares::marked && output == ShaderPass::picture &&
-                            targets_.undecided_target;
+        const bool leaves = !waits && light.row.triangles && light.row.area_shares != shadow::AreaShares::marked &&
+                            output == ShaderPass::picture && targets_.undecided_target;
         if (leaves && !programs_.must_wait(light.row, ShaderPass::decided))
             used.decided_program = programs_.row(light.row, ShaderPass::decided);
         if (used.program && finds_rays()) return used;

@@ -133,7 +133,8 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     limits.bytes = std::min(limits.bytes, maps_.available());
     if (limits.bytes != MapCache::kNoLimit) limits.bytes -= std::min(limits.bytes, tint_maps_.wanted_bytes());
     const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
-    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay() && tint_maps_.stay();
+    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay() &&
+              tint_maps_.stay();
     if (reused_) {
         keep_all(frame_.maps, frame_.updates);
     } else {
@@ -154,9 +155,10 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
 
 void ShadowSystem::report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const {
     const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
-    explain_lights(
-        scene, {drawn_views(frame_), frame_.sets, maps_, tint_maps_, draw_times_, contribution_culling_, has_rays, frame_.cpu_us},
-        report);
+    explain_lights(scene,
+                   {drawn_views(frame_), frame_.sets, maps_, tint_maps_, draw_times_, contribution_culling_, has_rays,
+                    frame_.cpu_us},
+                   report);
     budget_.report(report);
     add_outcome(outcome, report);
 }
@@ -227,10 +229,10 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     finish("passes");
 
     const bool masked = static_cast<bool>(gpu.caster_masks());
-    publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked, f.tints, f.ray_tints,
+    publish_lights(scene,
+                   {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked, f.tints, f.ray_tints,
                     tint_scene_.buffer()},
-                   f.inputs,
-                   f.cpu_us);
+                   f.inputs, f.cpu_us);
     finish("publish");
 }
 

@@ -103,7 +103,8 @@ void TintScene::add_instance(const InstanceItem& item, const GpuScene& gpu, cons
     for (std::uint32_t s = 0; s < range.submesh_count; ++s) {
         const GpuScene::SubmeshRange& submesh = gpu.submesh(range.first_submesh + s);
         if (!gpu.material(submesh.material).transmits) continue;
-        const std::uint32_t material = material_of(gpu, submesh.material), first = submesh.first_index - range.first_index;
+        const std::uint32_t material = material_of(gpu, submesh.material),
+                            first = submesh.first_index - range.first_index;
         for (std::uint32_t i = first; i + 2 < first + submesh.index_count; i += 3) {
             TintTriangle t;
             glm::vec3* const corners[] = {&t.a, &t.b, &t.c};
@@ -167,8 +168,8 @@ void TintScene::gather(const SceneSnapshot& scene, const GpuScene& gpu) {
 }
 
 bool TintScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
-    const bool same = written_ && scene.version != 0 && scene.version == version_ &&
-                      gpu.library().version == library_version_;
+    const bool same =
+        written_ && scene.version != 0 && scene.version == version_ && gpu.library().version == library_version_;
     if (same) return true;
     gather(scene, gpu);
     if (!buffer_.reserve(words_.size() * sizeof(std::uint32_t))) {

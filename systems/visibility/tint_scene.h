@@ -36,9 +36,9 @@ static_assert(sizeof(TintTriangle) == 116);
 /// Material of such triangles; matches TintMaterial there.
 struct TintMaterial {
     float base_colour[4] = {};
-    float through[3] = {};       // Material::transmission
-    std::uint32_t blended = 0;   // 1: alpha is the covered share
-    float cutoff = -1.0f;        // below 0: not masked
+    float through[3] = {};      // Material::transmission
+    std::uint32_t blended = 0;  // 1: alpha is the covered share
+    float cutoff = -1.0f;       // below 0: not masked
     float metallic = 0.0f;
     std::uint32_t texels = ~0u;  // offset of sRGB bytes, a word per texel; ~0: no texture
     std::uint32_t width = 0, height = 0;

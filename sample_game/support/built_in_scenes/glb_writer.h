@@ -27,8 +27,8 @@ struct MaterialSpec {
     glm::vec3 emissive{0.0f};
     std::optional<float> alpha_cutoff = {};  // set: alpha mask
     bool double_sided = false;
-    bool blended = false;                       // alpha is the covered share
-    float transmission = 0.0f;                  // share of light that passes what is covered; needs `blended`
+    bool blended = false;       // alpha is the covered share
+    float transmission = 0.0f;  // share of light that passes what is covered; needs `blended`
 };
 
 /// Joints of its skin that a vertex follows: one, and partly another.

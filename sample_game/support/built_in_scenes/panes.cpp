@@ -40,8 +40,8 @@ void add_window(GlbBuilder& glb, const Glasses& glasses, std::uint32_t lead) {
     for (std::size_t i = 0; i < panes.size(); ++i)
         panes[i] = glb.add_mesh(std::string("pane_") + kGlasses[i].name,
                                 make_card(glm::dvec3(0.0), {kPane_m, 0.0, 0.0}, {0.0, kPane_m, 0.0}), glasses[i]);
-    const std::uint32_t upright = glb.add_mesh(
-        "upright", make_box({-kBar_m, 0.0, -kBar_m}, {kBar_m, kRows * kPane_m + 0.4, kBar_m}), lead);
+    const std::uint32_t upright =
+        glb.add_mesh("upright", make_box({-kBar_m, 0.0, -kBar_m}, {kBar_m, kRows * kPane_m + 0.4, kBar_m}), lead);
     const double half_m = 0.5 * kColumns * kPane_m;
     const std::uint32_t rail =
         glb.add_mesh("rail", make_box({-half_m, -kBar_m, -kBar_m}, {half_m, kBar_m, kBar_m}), lead);
@@ -50,9 +50,8 @@ void add_window(GlbBuilder& glb, const Glasses& glasses, std::uint32_t lead) {
                       .translation_m = {column * kPane_m - half_m, 0.0, 0.0},
                       .mesh = upright});
     for (int row = 0; row <= kRows; ++row)
-        glb.add_node({.name = "rail_" + std::to_string(row),
-                      .translation_m = {0.0, 0.4 + row * kPane_m, 0.0},
-                      .mesh = rail});
+        glb.add_node(
+            {.name = "rail_" + std::to_string(row), .translation_m = {0.0, 0.4 + row * kPane_m, 0.0}, .mesh = rail});
     for (int i = 0; i < kColumns * kRows; ++i) {
         const int column = i % kColumns, row = i / kColumns;
         glb.add_node({.name = "pane_" + std::to_string(i),
@@ -83,7 +82,8 @@ std::vector<std::byte> make_panes() {
     GlbBuilder glb;
     const std::uint32_t plaster = glb.add_material({.name = "plaster", .base_colour = {0.75f, 0.74f, 0.7f, 1.0f}});
     const std::uint32_t lead = glb.add_material({.name = "lead", .base_colour = {0.12f, 0.12f, 0.13f, 1.0f}});
-    glb.add_node({.name = "floor", .mesh = glb.add_mesh("floor", make_box({-6.0, -0.2, -3.0}, {6.0, 0.0, 6.0}), plaster)});
+    glb.add_node(
+        {.name = "floor", .mesh = glb.add_mesh("floor", make_box({-6.0, -0.2, -3.0}, {6.0, 0.0, 6.0}), plaster)});
     const Glasses glasses = add_glasses(glb);
     add_window(glb, glasses, lead);
     add_stack(glb, glasses, plaster);
@@ -95,7 +95,10 @@ std::vector<std::byte> make_panes() {
     glb.add_node({.name = "spot", .translation_m = spot_m, .rotation = facing(toward), .light = spot});
     const std::uint32_t camera = glb.add_camera({.name = "main", .fov_y_rad = glm::radians(42.0), .near_m = 0.1});
     const glm::dvec3 at_m(2.2, 4.0, 7.2);
-    glb.add_node({.name = "main", .translation_m = at_m, .rotation = facing(glm::dvec3(1.1, 0.6, 1.0) - at_m), .camera = camera});
+    glb.add_node({.name = "main",
+                  .translation_m = at_m,
+                  .rotation = facing(glm::dvec3(1.1, 0.6, 1.0) - at_m),
+                  .camera = camera});
     return glb.finish({.name = "panes"});
 }
 

@@ -16,8 +16,8 @@ inline constexpr const char* kSpheresScene = "spheres";
 /// Name of the built-in scene of coloured glass.
 inline constexpr const char* kPanesScene = "panes";
 
-/// Loads `file`, the valley, the spheres or the panes by their names, or the courtyard without a name. Built-in scenes are made in
-/// memory and take the same loader. Errors: as assets::load_gltf.
+/// Loads `file`, the valley, the spheres or the panes by their names, or the courtyard without a name. Built-in scenes
+/// are made in memory and take the same loader. Errors: as assets::load_gltf.
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file);
 
 /// Loads the courtyard with the game's additions.

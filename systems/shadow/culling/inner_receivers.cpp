@@ -13,8 +13,8 @@ namespace {
 using math::Overlap;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rounds in which corners are looked for beyond the facets of the hull of those found before. One leaves a sixth of what
-/// lies outside without it; another one takes longer than it saves (`./gnomon bench culling`).
+/// Rounds in which corners are looked for beyond the facets of the hull of those found before. One leaves a sixth of
+/// what lies outside without it; another one takes longer than it saves (`./gnomon bench culling`).
 constexpr int kRounds = 1;
 
 /// Returns the corner of a box that is farthest along a direction.

@@ -91,7 +91,8 @@ private:
         std::array<math::Plane, math::kMaxClipPlanes> planes;
         for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
             const auto seen = math::planes_of(out_.camera_frusta[c]);
-            const auto end = std::copy(opening.begin(), opening.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
+            const auto end =
+                std::copy(opening.begin(), opening.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
             const std::uint32_t found = clip_candidates_of(c, used, core);
             if (found > 0) receiver_hull.consumers |= consumer_bit(c);
@@ -238,7 +239,8 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
     if (has_size && light_facts(light.kind).area())
         for (std::uint32_t b = 0; b < hulls.count; ++b) {
             const IndexRange points = out.hulls[hulls.first + b].receiver_points;
-            if (points.count > 0) mark_around_source(scene, light, slice(out.receiver_points_ws, points), scratch.marks);
+            if (points.count > 0)
+                mark_around_source(scene, light, slice(out.receiver_points_ws, points), scratch.marks);
         }
     const std::size_t first = out.caster_items.size();
     scratch.marks.for_each([&](std::uint32_t i) { out.caster_items.push_back(i); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/request/accuracy_target.h"
 #include "systems/shadow/request/decide_requests.h"

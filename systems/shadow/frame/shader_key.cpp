@@ -77,7 +77,8 @@ std::vector<std::string> shared_defines(const SharedRow& row) {
             flag("LIGHT_AREA", false),
             flag("SHADOW_ANTIALIAS", row.antialias),
             flag("SHADOW_SPREAD", row.antialias),
-            flag("SHADOW_LINEAR_TAPS", row.linear_taps), "SHADOW_REACH_TEXEL " + row.reach_texel};
+            flag("SHADOW_LINEAR_TAPS", row.linear_taps),
+            "SHADOW_REACH_TEXEL " + row.reach_texel};
 }
 
 std::string row_glsl(const ShaderKey& row) {

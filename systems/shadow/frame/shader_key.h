@@ -28,8 +28,8 @@ struct ShaderKey {
     bool ray_masks = false;    // some of the triangles read by `rays` or `triangles` are alpha-masked
     bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
     AreaShares area_shares = AreaShares::none;  // how visibility becomes a share of the pixel's area; none: it does not
-    TintLookup tint = TintLookup::none;  // read by programs that add light to a picture alone
-    bool whole_source = false;  // the filter sees all of an area light; others see its middle alone
+    TintLookup tint = TintLookup::none;         // read by programs that add light to a picture alone
+    bool whole_source = false;                  // the filter sees all of an area light; others see its middle alone
     bool operator==(const ShaderKey&) const = default;
 };
 

@@ -68,8 +68,7 @@ void list_ray_tints(const SceneSnapshot& scene, const GpuScene& gpu, const Drawn
     lights.clear();
     for (std::uint32_t i = 0; i < scene.lights.size() && gpu.any_transmits(); ++i) {
         if (!scene.lights[i].shadow.translucent_casters || drawn.statuses[i].is_skipped() ||
-            !drawn.lights[i].request.rays.used ||
-            !any_translucent(scene, gpu, drawn.fitted.sets_of(sets, i).casters()))
+            !drawn.lights[i].request.rays.used || !any_translucent(scene, gpu, drawn.fitted.sets_of(sets, i).casters()))
             continue;
         lights.resize(scene.lights.size(), 0);
         lights[i] = 1;

@@ -39,8 +39,7 @@ bool TintPass::program(Step step, bool coloured) {
     if (step != kGather && coloured) defines.emplace_back("COLOURED 1");
     const auto vertex = gl::expand_shader(
         shader_files(), step == kGather ? "common/fullscreen.vert" : "shadow/passes/depth/depth.vert", defines);
-    const auto fragment =
-        gl::expand_shader(shader_files(), std::string("shadow/passes/tint/") + kFiles[step], defines);
+    const auto fragment = gl::expand_shader(shader_files(), std::string("shadow/passes/tint/") + kFiles[step], defines);
     if (vertex && fragment)
         programs_[step] = device_.create_program({kNames[step], vertex.value(), fragment.value()}).handle;
     return static_cast<bool>(programs_[step]);
@@ -55,7 +54,8 @@ bool TintPass::provide_scratch(std::uint32_t edge_px) {
     }
     scratch_px_ = 0;
     for (std::size_t i = 0; i < kTintLayers; ++i) {
-        const gl::TextureDesc desc{.label = "translucent layer", .format = gl::Format::d32f, .width = edge_px, .height = edge_px};
+        const gl::TextureDesc desc{
+            .label = "translucent layer", .format = gl::Format::d32f, .width = edge_px, .height = edge_px};
         scratch_[i] = device_.create_texture(desc, {}).handle;
         if (scratch_[i]) scratch_targets_[i] = device_.create_target({desc.label, {}, {scratch_[i]}}).handle;
         if (!scratch_targets_[i]) return false;
@@ -155,8 +155,8 @@ void TintPass::draw(const PassInputs& in, const View& view, const gl::PipelineSt
         list.add(gl::BindUniforms{bindings::kTransmissionBlock, records_.handle(), draw.record_offset,
                                   static_cast<std::uint32_t>(sizeof(TransmissionRecord))});
         list.add(gl::BindTexture{bindings::kBaseColourUnit, material.texture, material.sampler});
-        list.add(gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item,
-                                draw.item_count});
+        list.add(
+            gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
         ++report.counts.draws;
         report.counts.triangles += std::uint64_t{draw.index_count} / 3 * draw.item_count;
     }

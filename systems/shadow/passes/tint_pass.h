@@ -19,8 +19,8 @@ struct TransmissionRecord {
     glm::vec4 through{0.0f};  // rgb: Material::transmission; w: 1: alpha is the covered share
 };
 
-/// Recorder of the layers of translucent casters. A view has a pass per layer that finds its depths, a pass that gathers
-/// them, and a pass that sums absorbances. Nothing exists on the device until a view has such casters.
+/// Recorder of the layers of translucent casters. A view has a pass per layer that finds its depths, a pass that
+/// gathers them, and a pass that sums absorbances. Nothing exists on the device until a view has such casters.
 class TintPass {
 public:
     explicit TintPass(gl::Device& device);
@@ -59,8 +59,8 @@ private:
     bool provide_scratch(std::uint32_t edge_px);
     void gather(const PassInputs& in, std::span<const TintAssignment> tints);
     void gather_draws(const PassInputs& in, std::span<const std::uint32_t> casters);
-    void begin(const PassInputs& in, const View& view, gl::TargetHandle target, bool depths,
-               std::uint32_t edge_px, gl::CommandList& list) const;
+    void begin(const PassInputs& in, const View& view, gl::TargetHandle target, bool depths, std::uint32_t edge_px,
+               gl::CommandList& list) const;
     void draw(const PassInputs& in, const View& view, const gl::PipelineState& state, gl::CommandList& list,
               LightReport& report) const;
     void bind_layers(bool bound, gl::CommandList& list) const;

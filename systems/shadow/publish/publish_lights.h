@@ -46,9 +46,9 @@ struct PublishInputs {
     const MapSamplers& samplers;
     const visibility::RayBuffers& rays;  // nodes {0}: no light can use rays
     bool masked = false;                 // GpuScene::caster_masks() has masks for lights that read triangles
-    std::span<const TintAssignment> tints = {};     // one per view; empty: no light has translucent casters in its maps
-    std::span<const std::uint8_t> ray_tints = {};   // ShadowFrame::ray_tints
-    gl::BufferHandle tint_tree = {};                // for these lights
+    std::span<const TintAssignment> tints = {};    // one per view; empty: no light has translucent casters in its maps
+    std::span<const std::uint8_t> ray_tints = {};  // ShadowFrame::ray_tints
+    gl::BufferHandle tint_tree = {};               // for these lights
 };
 
 /// Publishes, for each camera that draws, each light with its program row, record and textures (stage 6). A light

@@ -3,10 +3,10 @@
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// Choice of the filter for ShadowFilter::automatic. It is kAreaFilter for area lights, else kDefaultFilter, unless LightShadow::max_error_px or
-/// narrowest_caster_px is above 0 and no map within the light's limits meets it. Then it is kExactFilter, which has no
-/// such error and loses no caster, because it traces rays. Without targets the default filter's maps suffice: rays cost
-/// one and a half to three times as much (docs/results/cost.md).
+/// Choice of the filter for ShadowFilter::automatic. It is kAreaFilter for area lights, else kDefaultFilter, unless
+/// LightShadow::max_error_px or narrowest_caster_px is above 0 and no map within the light's limits meets it. Then it
+/// is kExactFilter, which has no such error and loses no caster, because it traces rays. Without targets the default
+/// filter's maps suffice: rays cost one and a half to three times as much (docs/results/cost.md).
 ///
 /// A cheaper filter is never chosen here: edges would become stairs. Only budgets choose one (QualityLimits::plain).
 ///
@@ -32,9 +32,9 @@ inline constexpr std::uint32_t kFilterPasses = 30;
 /// Returns the meaning of ShadowFilter::automatic without targets.
 ShadowFilter usual_filter(LightKind kind);
 
-/// Returns true if the targets may choose the filter. Area lights have one. Then neither filter nor map size is given, and either filter
-/// shows the same shadows. They would differ with a sun's own eye, a given depth range, or a manual bias, because the
-/// predicted error assumes the automatic one.
+/// Returns true if the targets may choose the filter. Area lights have one. Then neither filter nor map size is given,
+/// and either filter shows the same shadows. They would differ with a sun's own eye, a given depth range, or a manual
+/// bias, because the predicted error assumes the automatic one.
 bool leaves_filter(const LightItem& light);
 
 /// Returns the filter with which the light's request starts. `held`: last choice of the targets, null for a new light.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/filter_table.h"
 

@@ -195,7 +195,7 @@ TEST(SceneImport, ReadsAreaLightsAfterPunctualOnes) {
 TEST(SceneImport, TakesAnAreaLightWithoutASizeAsOneThatShowsNothing) {
     GltfBuilder builder;
     builder.doc["extensionsUsed"] = {"EXT_lights_area"};
-    builder.doc["extensions"]["EXT_lights_area"]["lights"] = {{{"type", "rect"}, {"size", -1}}};
+    builder.doc["extensions"]["EXT_lights_area"]["lights"] = json::array({{{"type", "rect"}, {"size", -1}}});
     builder.push("nodes", {{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}});
     const SceneData scene = loaded(builder.gltf());
     EXPECT_GT(scene.lights.at(0).height_m, 0.0F);

@@ -238,7 +238,7 @@ std::vector<TakenInput> taken_light_inputs() {
 std::function<Bytes()> area_light(const json& source, bool and_a_point = false) {
     GltfBuilder builder = triangle();
     builder.doc["extensionsUsed"] = {"EXT_lights_area", "KHR_lights_punctual"};
-    builder.doc["extensions"]["EXT_lights_area"]["lights"] = {source};
+    builder.doc["extensions"]["EXT_lights_area"]["lights"] = json::array({source});
     builder.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     json node = {{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}};
     if (and_a_point) node["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
