@@ -8,6 +8,7 @@
 
 #include "bench/common/box_field_scene.h"
 #include "bench/culling/fit_time.h"
+#include "bench/culling/list_time.h"
 #include "bench/culling/update_time.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
@@ -139,6 +140,7 @@ void run_culling(const std::string& filter) {
     add("tree_build", tree_build);
     add("tree_refit_all", tree_refit_all);
     add("tree_refit_100", tree_refit_100);
+    for (const ListBenchmark& list : list_benchmarks()) add(list.name, list.run);
     std::string program = "gnomon_bench", wanted = "--benchmark_filter=" + filter;
     char* arguments[] = {program.data(), wanted.data(), nullptr};
     int count = filter.empty() ? 1 : 2;

@@ -1,14 +1,13 @@
 #include "engine/math/bounds_tree.h"
 
+#include <algorithm>
 #include <bit>
-#include <span>
 
 namespace gnomon::math {
 namespace {
 
 /// Number of slots in a leaf. Sizes 4 to 8 cost the same within noise, 1 and 16 cost more (./gnomon bench culling).
 constexpr std::uint32_t kLeafSlots = 4;
-constexpr std::uint32_t kNone = 0xffffffffu;
 /// Growth at which the tree is rebuilt: mean over all nodes of their extent relative to the built one. Each node counts
 /// at most kMostGrowth, so that one outlier does not decide.
 constexpr double kLooseGrowth = 2.0, kMostGrowth = 16.0;
@@ -25,28 +24,90 @@ double growth(double extent_now, double extent_built) {
 
 }  // namespace
 
+Aabb BoundsTree::box() const {
+    Aabb all;
+    for (std::uint32_t root = 0; root < nodes_.size(); root = nodes_[root].skip) grow(all, nodes_[root].box());
+    return all;
+}
+
+/// Builds one tree over all items that were not removed.
 void BoundsTree::build_nodes() {
     nodes_.clear();
+    trees_.clear();
+    leaf_of_.clear();
     moved_.clear();
-    const auto twice_centre = [](const Aabb& box) { return is_empty(box) ? glm::dvec3(0.0) : box.min + box.max; };
-    append_nodes(nodes_, std::span(items_), [&](std::span<BvhItem<Aabb>> items, const Aabb&, int) {
-        return items.size() <= kLeafSlots ? 0 : halve(items, twice_centre);
-    });
-    slot_of_.resize(items_.size());
+    growth_ = 0.0;
+    append_tree();
+}
+
+/// Builds a tree over the items that are in none. Takes in the trees before it that are not twice as large, so that
+/// sizes fall by halves and items are built again a logarithm of times.
+void BoundsTree::append_tree() {
+    std::size_t first = leaf_of_.size();
+    while (!trees_.empty() && first - trees_.back().first_slot < 2 * (items_.size() - first)) {
+        const Tree last = trees_.back();
+        for (std::size_t n = last.first_node; n < nodes_.size(); ++n)
+            growth_ -= growth(extent(nodes_[n].box()), built_extent_[n]);
+        first = last.first_slot;
+        nodes_.resize(last.first_node);
+        trees_.pop_back();
+    }
+    const auto begin = items_.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = std::remove_if(begin, items_.end(), [](const auto& item) { return item.item == kNone; });
+    removed_ -= static_cast<std::size_t>(items_.end() - end);
+    items_.erase(end, items_.end());
     leaf_of_.resize(items_.size());
+    if (first == items_.size()) return;
+    const auto root = static_cast<std::uint32_t>(nodes_.size());
+    trees_.push_back({root, static_cast<std::uint32_t>(first)});
+    const auto twice_centre = [](const Aabb& box) { return is_empty(box) ? glm::dvec3(0.0) : box.min + box.max; };
+    const auto split = [&](std::span<BvhItem<Aabb>> items, const Aabb&, int) {
+        return items.size() <= kLeafSlots ? 0 : halve(items, twice_centre);
+    };
+    append_nodes(nodes_, std::span(items_).subspan(first), split, static_cast<std::uint32_t>(first));
     parent_.resize(nodes_.size());
     built_extent_.resize(nodes_.size());
-    for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+    parent_[root] = kNone;
+    for (std::uint32_t n = root; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
         built_extent_[n] = extent(node.box());
-        if (n == 0) parent_[n] = kNone;
         if (node.leaf == 0) parent_[n + 1] = parent_[nodes_[n + 1].skip] = n;
         for (std::uint32_t s = node.first_slot(); s < node.first_slot() + node.slots(); ++s) {
             slot_of_[items_[s].item] = s;
             leaf_of_[s] = n;
         }
     }
-    growth_ = static_cast<double>(nodes_.size());
+    growth_ += static_cast<double>(nodes_.size() - root);
+}
+
+/// Takes the removed items out and numbers the others in their order, with gaps for the added ones.
+void BoundsTree::renumber(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added) {
+    number_.resize(size());
+    std::uint32_t next = 0;
+    auto gone = removed.begin();
+    auto came = added.begin();
+    for (std::uint32_t i = 0; i < number_.size(); ++i) {
+        if (gone != removed.end() && *gone == i) {
+            number_[i] = kNone;
+            ++gone;
+            continue;
+        }
+        for (; came != added.end() && *came == next; ++came) ++next;
+        number_[i] = next++;
+    }
+    for (const std::uint32_t i : removed) {
+        items_[slot_of_[i]].box = {};
+        moved_.push_back(slot_of_[i]);
+    }
+    removed_ += removed.size();
+    slot_of_.resize(number_.size() - removed.size() + added.size());
+    for (std::uint32_t s = 0; s < items_.size(); ++s) {
+        std::uint32_t& item = items_[s].item;
+        if (item != kNone) item = number_[item];
+        if (item != kNone) slot_of_[item] = s;
+    }
+    refit();
+    if (removed_ * 2 > items_.size()) build_nodes();
 }
 
 /// Updates a node's box. Returns true if it changed.

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "engine/math/bvh.h"
@@ -8,9 +9,10 @@
 
 namespace gnomon::math {
 
-/// Binary tree over the boxes of numbered items, for finding all items that touch a volume. Results never depend on the
-/// tree's shape, only the cost does. Moving items keeps the shape and refits the boxes; a tree that became loose is
-/// rebuilt. Storage is reused: a tree allocates only when its item count exceeds all earlier ones.
+/// Binary trees over the boxes of numbered items, for finding all items that touch a volume. Results never depend on
+/// the trees' shape, only the cost does. Moving items keeps the shape and refits the boxes; trees that became loose are
+/// rebuilt as one. Items that are added get trees of their own, each built with at most half as many as the one before
+/// it. Storage is reused: no call allocates unless it needs more items than all earlier ones.
 class BoundsTree {
 public:
     /// Builds the tree: item i below `count` has box_of(i). Equal input gives an equal tree. O(n log n). Items with an
@@ -18,8 +20,20 @@ public:
     template <class BoxOf>
     void build(std::uint32_t count, BoxOf&& box_of) {
         items_.clear();
+        removed_ = 0;
         for (std::uint32_t i = 0; i < count; ++i) items_.push_back({kept(box_of(i)), i});
+        slot_of_.resize(count);
         build_nodes();
+    }
+
+    /// Removes and adds items, and numbers all anew in their order. `removed`: numbers before, rising. `added`: numbers
+    /// after, rising and below the new size; they have box_of(i). Applies earlier moves as well. O(items) for the
+    /// numbers; added items cost a logarithm of the size each, in the mean over many calls.
+    template <class BoxOf>
+    void splice(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added, BoxOf&& box_of) {
+        renumber(removed, added);
+        for (const std::uint32_t i : added) items_.push_back({kept(box_of(i)), i});
+        if (!added.empty()) append_tree();
     }
 
     /// Replaces the box of item i < size(). Takes effect with refit().
@@ -28,9 +42,9 @@ public:
     /// tree once.
     void refit();
 
-    std::size_t size() const { return items_.size(); }
+    std::size_t size() const { return slot_of_.size(); }
     /// Returns the box around all items; empty without any.
-    Aabb box() const { return nodes_.empty() ? Aabb{} : nodes_.front().box(); }
+    Aabb box() const;
 
     /// Calls visit(item) for each item with a box that is not `outside`, in no particular order. classify(box) ->
     /// Overlap must be consistent: parts of an `outside` box are outside, parts of an `inside` box inside.
@@ -44,7 +58,7 @@ public:
                     if (!is_empty(items_[s].box)) visit(items_[s].item);
             } else if (overlap == Overlap::partial) {
                 for (std::uint32_t s = node.first_slot(); s < node.first_slot() + node.slots(); ++s)
-                    if (classify(items_[s].box) != Overlap::outside) visit(items_[s].item);
+                    if (items_[s].item != kNone && classify(items_[s].box) != Overlap::outside) visit(items_[s].item);
             }
             n = overlap == Overlap::partial ? n + 1 : node.skip;
         }
@@ -54,22 +68,28 @@ public:
     /// in the box. value(item, lowest) -> double is the item's value, or `lowest` where that is not larger.
     template <class Rank, class Value>
     double lowest(Rank&& rank, Value&& value) const {
-        constexpr double kNone = std::numeric_limits<double>::infinity();
-        if (nodes_.empty()) return kNone;
+        double lowest = std::numeric_limits<double>::infinity();
         const auto rank_of = [&](const Node& node) { return rank(node.box()); };
-        return lowest_in_tree(nodes_, kNone, rank_of, [&](const Node& leaf, double lowest) {
-            for (std::uint32_t s = leaf.first_slot(); s < leaf.first_slot() + leaf.slots(); ++s)
-                if (rank(items_[s].box) < lowest) lowest = value(items_[s].item, lowest);
-            return lowest;
-        });
+        for (std::uint32_t root = 0; root < nodes_.size(); root = nodes_[root].skip)
+            lowest = lowest_in_tree(nodes_, root, lowest, rank_of, [&](const Node& leaf, double least) {
+                for (std::uint32_t s = leaf.first_slot(); s < leaf.first_slot() + leaf.slots(); ++s)
+                    if (items_[s].item != kNone && rank(items_[s].box) < least) least = value(items_[s].item, least);
+                return least;
+            });
+        return lowest;
     }
 
 private:
     using Node = BvhNode<Aabb>;
+    struct Tree {
+        std::uint32_t first_node, first_slot;
+    };
 
     /// Returns the box as the tree keeps it: without NaN.
     static Aabb kept(const Aabb& box) { return is_empty(box) ? Aabb{} : box; }
     void build_nodes();
+    void append_tree();
+    void renumber(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added);
     bool refit_node(std::uint32_t node);
     /// Finds the range of slots below a node, which has no gaps. The last node of a subtree is a leaf.
     std::uint32_t first_slot(std::uint32_t node) const {
@@ -81,9 +101,14 @@ private:
         return last.first_slot() + last.slots();
     }
 
-    std::vector<Node> nodes_;
-    std::vector<BvhItem<Aabb>> items_;    // by slot
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    std::vector<Node> nodes_;             // tree after tree
+    std::vector<Tree> trees_;             // by rising node and slot
+    std::vector<BvhItem<Aabb>> items_;    // by slot; kNone with an empty box: a removed item
     std::vector<std::uint32_t> slot_of_;  // by item
+    std::vector<std::uint32_t> number_;   // scratch: new number by old one
+    std::size_t removed_ = 0;             // slots of removed items
     std::vector<std::uint32_t> leaf_of_;  // leaf node by slot
     std::vector<std::uint32_t> parent_;   // by node
     std::vector<double> built_extent_;    // by node

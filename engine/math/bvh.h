@@ -103,12 +103,13 @@ Box refitted_box(const std::vector<BvhNode<Box>>& nodes, std::size_t n, const Bo
     return box;
 }
 
-/// Finds the lowest value in a tree of at least one node, split by halve(). Branch and bound, more promising half
-/// first. Returns `no_more_than` if no value is lower.
+/// Finds the lowest value below node `root`, of a tree split by halve(). Branch and bound, more promising half first.
+/// Returns `no_more_than` if no value is lower.
 /// - rank(node) -> double: lower bound for all values below the node.
 /// - value(leaf, lowest) -> double: the leaf's lowest value, or `lowest` where that is not larger.
 template <class Box, class Rank, class Value>
-double lowest_in_tree(const std::vector<BvhNode<Box>>& nodes, double no_more_than, Rank&& rank, Value&& value) {
+double lowest_in_tree(const std::vector<BvhNode<Box>>& nodes, std::uint32_t root, double no_more_than, Rank&& rank,
+                      Value&& value) {
     struct Waiting {
         std::uint32_t node;
         double rank;
@@ -117,7 +118,7 @@ double lowest_in_tree(const std::vector<BvhNode<Box>>& nodes, double no_more_tha
     std::array<Waiting, 29> waiting;
     std::size_t count = 0;
     double lowest = no_more_than;
-    waiting[count++] = {0, rank(nodes[0])};
+    waiting[count++] = {root, rank(nodes[root])};
     while (count > 0) {
         const Waiting next = waiting[--count];
         if (!(next.rank < lowest)) continue;

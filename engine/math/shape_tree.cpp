@@ -131,7 +131,7 @@ double ShapeTree::lowest(const Ramp& ramp, std::span<const Plane> planes, double
                          std::vector<glm::dvec3>& scratch) const {
     if (empty() || planes.size() >= kMaxClipPlanes) return no_more_than;
     Ranking rank(in_double(nodes_[0].box()), ramp, planes);
-    return lowest_in_tree(nodes_, no_more_than, rank, [&](const Node& leaf, double lowest) {
+    return lowest_in_tree(nodes_, 0, no_more_than, rank, [&](const Node& leaf, double lowest) {
         rank.narrow(lowest, scratch);
         if (!(rank(leaf) < lowest)) return lowest;
         return lowest_in(in_double(leaf.box()), ramp, planes, lowest, scratch);

@@ -107,19 +107,15 @@ void SceneStore::remove(MeshId mesh) {
     instances_anew_ = true;
 }
 
-CasterId SceneStore::add_caster(const CasterDesc& desc) {
-    instances_anew_ = true;
-    return casters_.add({.desc = desc});
-}
+CasterId SceneStore::add_caster(const CasterDesc& desc) { return came_.emplace_back(casters_.add({.desc = desc})); }
 
 CasterId SceneStore::add_drawable(const DrawableDesc& desc) {
-    instances_anew_ = true;
-    return casters_.add({.desc = {.casts = desc.casts,
-                                  .receives = desc.receives,
-                                  .cast_layers = desc.cast_layers,
-                                  .receive_layers = desc.receive_layers},
-                         .draw = desc.draw,
-                         .bounds = desc.bounds});
+    return came_.emplace_back(casters_.add({.desc = {.casts = desc.casts,
+                                                     .receives = desc.receives,
+                                                     .cast_layers = desc.cast_layers,
+                                                     .receive_layers = desc.receive_layers},
+                                            .draw = desc.draw,
+                                            .bounds = desc.bounds}));
 }
 
 void SceneStore::redraw(CasterId id, const Bounds& bounds, double moves_at_most_m) {
@@ -143,11 +139,21 @@ void SceneStore::set_caster(CasterId id, const CasterDesc& desc) {
                         caster->desc.cast_layers != desc.cast_layers ||
                         caster->desc.receive_layers != desc.receive_layers;
     if (!moved && !marked) return;
-    if (caster->desc.mesh != desc.mesh) instances_anew_ = true;
+    if (caster->desc.mesh != desc.mesh) exchange_mesh(id, *caster);
     caster->desc = desc;
     if (!caster->moved && !caster->marked) changed_.push_back(id);
     caster->moved |= moved;
     caster->marked |= marked;
+}
+
+/// Has the caster listed anew.
+void SceneStore::exchange_mesh(CasterId id, Caster& caster) {
+    if (caster.instance == kNone) {
+        instances_anew_ = true;
+        return;
+    }
+    went_.push_back(std::exchange(caster.instance, kNone));
+    came_.push_back(id);
 }
 
 void SceneStore::set_transform(CasterId id, const glm::dmat4& world_from_mesh) {
@@ -158,8 +164,14 @@ void SceneStore::set_transform(CasterId id, const glm::dmat4& world_from_mesh) {
     caster->moved = true;
 }
 
-void SceneStore::remove(CasterId caster) {
-    if (casters_.remove(caster)) instances_anew_ = true;
+void SceneStore::remove(CasterId id) {
+    const Caster* caster = casters_.find(id);
+    if (!caster) return;
+    if (caster->instance != kNone)
+        went_.push_back(caster->instance);
+    else if (std::any_of(dropped_.begin(), dropped_.end(), [&](const Dropped& d) { return d.caster == id; }))
+        instances_anew_ = true;
+    casters_.remove(id);
 }
 
 LightId SceneStore::add_light(const LightDesc& desc) {
@@ -279,7 +291,7 @@ bool SceneStore::put_changes() {
     if (std::any_of(changed_.begin(), changed_.end(), lacks)) return false;
     for (const CasterId id : changed_) {
         Caster* caster = casters_.find(id);
-        if (!caster) continue;
+        if (!caster || (!caster->moved && !caster->marked)) continue;
         if (caster->moved) caster->version = snapshot_.version;
         if (caster->marked) snapshot_.list_version = snapshot_.version;
         put(*caster, id, snapshot_.instances[caster->instance]);
@@ -287,6 +299,44 @@ bool SceneStore::put_changes() {
         caster->moved = caster->marked = false;
     }
     return true;
+}
+
+/// Takes casters in and out that came or went. Returns false if one cannot be placed, or there are many: the list has
+/// to be made again.
+bool SceneStore::splice_casters() {
+    if (came_.empty() && went_.empty()) return true;
+    if (!is_worth_splicing(came_.size() + went_.size(), snapshot_)) return false;
+    splice_.clear();
+    std::sort(came_.begin(), came_.end(), [](CasterId a, CasterId b) { return a.index < b.index; });
+    std::sort(went_.begin(), went_.end());
+    for (const CasterId id : came_) {
+        Caster* caster = casters_.find(id);
+        if (!caster) continue;
+        if (fault_of(*caster) != DropReason::instances_full) return false;
+        caster->moved = caster->marked = false;
+        caster->version = snapshot_.version;
+        put(*caster, id, splice_.added.emplace_back());
+    }
+    splice_.removed = went_;
+    if (splice_.empty()) return true;
+    note_casters(splice_instances(snapshot_, splice_));
+    return true;
+}
+
+/// Notes where the casters of the instances from `first` on are, and what the list holds.
+void SceneStore::note_casters(std::uint32_t first) {
+    for (std::uint32_t i = first; i < snapshot_.instances.size(); ++i) {
+        const ecs::Entity entity = snapshot_.instances[i].entity;
+        casters_.find({entity.index, entity.version})->instance = i;
+    }
+    snapshot_.any_by_depth = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
+                                         [](const InstanceItem& item) { return item.drawable.by_depth; });
+    snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
+                                         [](const InstanceItem& item) { return item.drawable.drawn; });
+    snapshot_.gpu_slot_count = casters_.bound();
+    if (std::exchange(shapes_version_, library_.version) == library_.version) return;
+    snapshot_.shapes.clear();
+    for (const assets::Mesh& mesh : library_.meshes) snapshot_.shapes.push_back(mesh.shape);
 }
 
 void SceneStore::list_instances() {
@@ -303,19 +353,14 @@ void SceneStore::list_instances() {
         }
         const bool is_new = caster.instance == kNone;
         if (is_new || caster.moved) caster.version = snapshot_.version;
-        caster.instance = static_cast<std::uint32_t>(snapshot_.instances.size());
+        if (is_new || caster.moved || caster.marked)
+            snapshot_.changed_instances.push_back(static_cast<std::uint32_t>(snapshot_.instances.size()));
         put(caster, id, snapshot_.instances.emplace_back());
-        if (is_new || caster.moved || caster.marked) snapshot_.changed_instances.push_back(caster.instance);
         caster.moved = caster.marked = false;
     });
-    snapshot_.any_by_depth = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
-                                         [](const InstanceItem& item) { return item.drawable.by_depth; });
-    snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
-                                         [](const InstanceItem& item) { return item.drawable.drawn; });
-    snapshot_.gpu_slot_count = casters_.bound();
-    snapshot_.shapes.clear();
-    for (const assets::Mesh& mesh : library_.meshes) snapshot_.shapes.push_back(mesh.shape);
+    note_casters(0);
     snapshot_.list_version = snapshot_.version;
+    build_tree(snapshot_);
 }
 
 void SceneStore::list_lights() {
@@ -373,16 +418,17 @@ void SceneStore::update(std::span<const ConsumerItem> consumers, std::span<const
     if (lights_anew_) list_lights();
     any |= std::exchange(lights_anew_, false);
     if (std::exchange(lights_set_, false)) any |= put_lights();
-    if (!instances_anew_ && !put_changes()) instances_anew_ = true;
-    any |= !changed_.empty() || instances_anew_;
+    if (!instances_anew_ && !(splice_casters() && put_changes())) instances_anew_ = true;
+    any |= !changed_.empty() || instances_anew_ || snapshot_.list_version == snapshot_.version;
     changed_.clear();
+    came_.clear();
+    went_.clear();
     if (!any) {
         --snapshot_.version;  // set to equal values
         return;
     }
     if (std::exchange(instances_anew_, false)) {
         list_instances();
-        build_tree(snapshot_);
     } else {
         std::sort(snapshot_.changed_instances.begin(), snapshot_.changed_instances.end());
         refit_tree(snapshot_);

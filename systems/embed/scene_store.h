@@ -7,12 +7,12 @@
 #include "gnomon/shadows.h"
 #include "systems/embed/slots.h"
 #include "systems/extract/snapshot.h"
+#include "systems/extract/splice_instances.h"
 
 namespace gnomon::embed {
 
 /// Scene behind gnomon::Shadows: what was added, as the snapshot that all stages read. `update` applies what was set
-/// since the last one, at a cost in proportion to that. Where casters came or went, the cost is in proportion to the
-/// scene.
+/// since the last one, at a cost in proportion to that. Where casters came or went, each caster is looked at.
 class SceneStore {
 public:
     SceneStore();
@@ -73,6 +73,9 @@ private:
     DropReason fault_of(const Caster& caster) const;
     void put(Caster& caster, CasterId id, InstanceItem& item) const;
     bool put_changes();
+    bool splice_casters();
+    void note_casters(std::uint32_t first);
+    void exchange_mesh(CasterId id, Caster& caster);
     void note_changed_meshes();
     void list_instances();
     void list_lights();
@@ -85,6 +88,10 @@ private:
     Slots<LightId, StoredLight> lights_;
     SceneSnapshot snapshot_;
     std::vector<CasterId> changed_;  // casters with `moved` or `marked`
+    std::vector<CasterId> came_;     // casters to list
+    std::vector<std::uint32_t> went_;       // indices in the snapshot of those to take out
+    std::uint64_t shapes_version_ = ~0ull;  // library_.version when snapshot_.shapes was made
+    InstanceSplice splice_;                 // scratch
     std::vector<Dropped> dropped_;
     std::vector<std::uint32_t> lacking_, lost_;
     std::vector<std::uint32_t> changed_boxes_;  // meshes with content that changed

@@ -6,6 +6,7 @@
 
 #include "gnomon/assets.h"
 #include "gnomon/registry.h"
+#include "systems/extract/instances.h"
 #include "systems/extract/lights_and_cameras.h"
 #include "systems/extract/poses.h"
 #include "systems/extract/snapshot.h"
@@ -18,9 +19,10 @@ namespace gnomon {
 class Extractor {
 public:
     /// Updates the snapshot. `viewport_px`: size of the picture, both > 0. Meshes are indices in `library`. The cost is
-    /// proportional to the changes: written components are updated in place. Added or removed instances rebuild all
-    /// lists, lights and cameras only their own. An unchanged scene costs nothing. `lacking`: meshes that the device
-    /// does not have (GpuScene::lacking_meshes()); their instances are dropped.
+    /// proportional to the changes: written components are updated in place. Added or removed instances cost a look at
+    /// each instance, and a list anew if they are a quarter of them; lights and cameras have lists of their own. An
+    /// unchanged scene costs nothing. `lacking`: meshes that the device does not have (GpuScene::lacking_meshes());
+    /// their instances are dropped.
     void update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
                 glm::uvec2 viewport_px, SceneSnapshot& snapshot, std::span<const std::uint32_t> lacking = {});
 
@@ -40,36 +42,19 @@ private:
     bool read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, std::vector<ecs::Entity>* written,
                       std::vector<ecs::Entity>* came_or_went);
     Lists read_all(ecs::Registry& registry);
-    void list_instances(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
     void list_views(const ecs::Registry& registry, const TransformReport& transforms, SceneSnapshot& snapshot);
-    void list_instance(const ecs::Registry& registry, const assets::MeshLibrary& library, ecs::Entity entity,
-                       SceneSnapshot& snapshot);
-    void assign_slots(SceneSnapshot& snapshot);
-    std::uint32_t listed_at(ecs::Entity e) const;
-    bool any_mesh_changed(const assets::MeshLibrary& library, std::span<const std::uint32_t> lacking,
-                          SceneSnapshot& snapshot);
-    bool any_came_or_went(const ecs::Registry& registry, const SceneSnapshot& snapshot) const;
     Touched touch(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
-    bool touch_bent(const assets::MeshLibrary& library, SceneSnapshot& snapshot);
-    bool touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
-    bool touch_shown(const ecs::Registry& registry, SceneSnapshot& snapshot);
     LightsAndCameras::Effect touch_views(const ecs::Registry& registry, SceneSnapshot& snapshot);
 
     Cursors cursors_;
     PoseExtractor poses_;
     LightsAndCameras views_;
-    std::vector<std::uint32_t> bent_;  // instances with a pose: indices into snapshot.instances
-    /// Changes since the last frame, possibly repeated: place or pose; visibility or casting; lights and cameras;
-    /// names.
-    std::vector<ecs::Entity> moved_, shown_, edited_, named_;
-    std::vector<std::uint32_t> instance_of_;      // entity index -> index into snapshot.instances, kNone
-    std::vector<ecs::Entity> slot_owner_;         // gpu_slot -> entity
-    std::vector<std::uint32_t> slot_of_;          // entity index -> gpu_slot, kNone
-    std::vector<DroppedEntity> unusable_;         // found while making the lists
+    InstanceExtractor instances_;
+    /// Changes since the last frame, possibly repeated: mesh or place gained or lost; place or pose; visibility or
+    /// casting; lights and cameras; names.
+    std::vector<ecs::Entity> came_, moved_, shown_, edited_, named_;
     std::vector<QuarantinedEntity> quarantined_;  // as last seen
     std::vector<glm::dvec3> corners_ws_m_;        // scratch
-    std::vector<std::uint32_t> lacking_;          // as last seen
-    std::uint64_t library_version_ = 0;
     glm::uvec2 viewport_px_{0, 0};
     bool started_ = false;
 };

@@ -99,6 +99,11 @@ bool PoseExtractor::follows(std::span<const ecs::Entity> moved) const {
                        [&](ecs::Entity e) { return e.index < moves_pose_.size() && moves_pose_[e.index] != 0; });
 }
 
+bool PoseExtractor::depends_on(const ecs::Registry& registry, std::span<const ecs::Entity> came_or_went) const {
+    const auto poses = [&](ecs::Entity e) { return registry.has<Skin>(e) || registry.has<MorphWeights>(e); };
+    return follows(came_or_went) || std::any_of(came_or_went.begin(), came_or_went.end(), poses);
+}
+
 void PoseExtractor::update(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         PoseItem& pose = snapshot.poses[i];

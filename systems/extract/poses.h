@@ -21,6 +21,9 @@ public:
     /// Returns true if any pose may change when these entities move.
     bool follows(std::span<const ecs::Entity> moved) const;
 
+    /// Returns true if list() may find others when these entities gained or lost a mesh or a place.
+    bool depends_on(const ecs::Registry& registry, std::span<const ecs::Entity> came_or_went) const;
+
     /// Recomputes the poses; changed ones get `snapshot.version`.
     void update(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 

@@ -6,7 +6,8 @@
 
 namespace gnomon {
 
-/// Rebuilds scene.tree from the bounds of all instances. Needed after one was added, removed or reordered.
+/// Rebuilds scene.tree from the bounds of all instances. Needed after one was added, removed or reordered, except by
+/// splice_instances().
 void build_tree(SceneSnapshot& scene);
 
 /// Refits scene.tree to scene.changed_instances and sets its version to the scene's. Costs nothing without changes.

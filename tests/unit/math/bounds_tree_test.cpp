@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
+#include <numeric>
 #include <random>
+#include <string>
 
 #include "tests/unit/allocation_counter.h"
 #include "tests/unit/math/random_seed.h"
@@ -168,6 +172,103 @@ TEST(BoundsTree, EqualBoxesAreTakenApartAllTheSame) {
     build(tree, boxes);
     EXPECT_EQ(found(tree, boxes[0]).size(), boxes.size());
     EXPECT_TRUE(found(tree, {glm::dvec3(3.0), glm::dvec3(4.0)}).empty());
+}
+
+/// Boxes by number, and a tree that follows what comes and goes.
+class SplicedBoxes {
+public:
+    SplicedBoxes(std::size_t count, std::uint64_t seed) : random_(seed), numbers_(seed), boxes_(random_.boxes(count)) {
+        build(tree, boxes_);
+    }
+    /// Takes out and puts in so many, at random places of the order.
+    void splice(std::size_t removals, std::size_t additions) {
+        const std::vector<std::uint32_t> removed = numbers(removals, boxes_.size());
+        for (std::size_t k = removed.size(); k-- > 0;)
+            boxes_.erase(boxes_.begin() + static_cast<std::ptrdiff_t>(removed[k]));
+        const std::vector<std::uint32_t> added = numbers(additions, boxes_.size() + additions);
+        for (const std::uint32_t at : added)
+            boxes_.insert(boxes_.begin() + static_cast<std::ptrdiff_t>(at), random_.box(100.0, 1.0));
+        tree.splice(removed, added, [&](std::uint32_t i) { return boxes_[i]; });
+    }
+    void move_one() {
+        if (boxes_.empty()) return;
+        const std::uint32_t i = numbers(1, boxes_.size()).front();
+        tree.move(i, boxes_[i] = random_.box(100.0, 1.0));
+        tree.refit();
+    }
+    void expect_all_found(const std::string& when) {
+        ASSERT_EQ(tree.size(), boxes_.size()) << when;
+        for (int k = 0; k < 3; ++k) {
+            const Aabb volume = random_.box(120.0, 60.0);
+            ASSERT_EQ(found(tree, volume), wanted(boxes_, volume)) << when;
+        }
+        Aabb all;
+        for (const Aabb& box : boxes_) all = merged(all, box);
+        ASSERT_EQ(tree.box(), all) << when;
+        const auto height = [](const Aabb& box) { return box.min.y; };
+        double lowest = std::numeric_limits<double>::infinity();
+        for (const Aabb& box : boxes_) lowest = std::min(lowest, height(box));
+        ASSERT_EQ(
+            tree.lowest(height, [&](std::uint32_t i, double least) { return std::min(least, height(boxes_[i])); }),
+            lowest)
+            << when;
+    }
+    BoundsTree tree;
+    std::vector<Aabb>& boxes() { return boxes_; }
+
+private:
+    /// Distinct rising numbers below `bound`, at most `count`.
+    std::vector<std::uint32_t> numbers(std::size_t count, std::size_t bound) {
+        std::vector<std::uint32_t> all(bound), some;
+        std::iota(all.begin(), all.end(), 0u);
+        std::sample(all.begin(), all.end(), std::back_inserter(some), static_cast<std::ptrdiff_t>(count), numbers_);
+        return some;
+    }
+    Boxes random_;
+    std::mt19937_64 numbers_;
+    std::vector<Aabb> boxes_;
+};
+
+TEST(BoundsTree, FindsWhatCameAndNotWhatWent) {
+    for (const std::size_t count : {0u, 1u, 5u, 300u}) {
+        SplicedBoxes world(count, print_seed());
+        for (std::size_t round = 0; round < 120; ++round) {
+            world.splice(round % 5, round % 7);
+            world.expect_all_found("round " + std::to_string(round));
+            world.move_one();
+            world.expect_all_found("a move after round " + std::to_string(round));
+        }
+        world.splice(world.boxes().size(), 0);
+        world.expect_all_found("all went");
+        world.splice(0, 40);
+        world.expect_all_found("others came");
+    }
+}
+
+TEST(BoundsTree, AMoveBeforeASpliceIsNotLost) {
+    SplicedBoxes world(200, 11);
+    world.tree.move(7, world.boxes()[7] = {glm::dvec3(500.0), glm::dvec3(501.0)});
+    world.splice(3, 3);
+    world.expect_all_found("moved, then renumbered");
+}
+
+TEST(BoundsTree, WhatComesOneByOneCostsSearchesLittle) {
+    SplicedBoxes world(20000, 12);
+    for (int i = 0; i < 3000; ++i) world.splice(1, 1);
+    BoundsTree fresh;
+    build(fresh, world.boxes());
+    const Aabb volume{glm::dvec3(0.0), glm::dvec3(60.0)};
+    EXPECT_LT(4 * cost(world.tree, volume), 5 * cost(fresh, volume)) << "trees that fall in size by halves";
+}
+
+TEST(BoundsTree, SplicesAllocateNothingOnceWarm) {
+    SplicedBoxes world(2000, 13);
+    const std::vector<std::uint32_t> some{3, 40, 999};
+    const auto use = [&] { world.tree.splice(some, some, [&](std::uint32_t i) { return world.boxes()[i]; }); };
+    for (int i = 0; i < 3000; ++i) use();
+    const std::size_t before = allocation_count();
+    for (int i = 0; i < 1000; ++i) use();
+    EXPECT_EQ(allocation_count(), before);
 }
 
 TEST(BoundsTree, AllocatesNothingOnceItHasHeldAsMany) {

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "systems/extract/snapshot.h"
+
+namespace gnomon {
+
+/// Instances to take out of a snapshot, and those to put in. Kept from frame to frame, so that its storage is reused.
+struct InstanceSplice {
+    std::vector<std::uint32_t> removed;   // indices before, rising
+    std::vector<InstanceItem> added;      // by rising entity index; that of a removed instance may be among them
+    std::vector<std::uint32_t> added_at;  // indices after: written by splice_instances()
+    bool empty() const { return removed.empty() && added.empty(); }
+    void clear();
+};
+
+/// Returns false if so many come or go that a list anew costs no more: that one makes each instance and sorts it into
+/// the tree, where a splice copies each.
+inline bool is_worth_splicing(std::size_t changes, const SceneSnapshot& scene) {
+    constexpr std::size_t kPart = 4;
+    return changes <= scene.instances.size() / kPart;
+}
+
+/// Removes and adds instances in place: in the list, which stays sorted by entity index, and in the tree. Added ones go
+/// to scene.changed_instances, which is empty before, and get the scene's version, as do list and tree. The cost is a
+/// look at each instance, and a copy of those behind the first change. Returns the first index that may have another
+/// instance.
+std::uint32_t splice_instances(SceneSnapshot& scene, InstanceSplice& splice);
+
+}  // namespace gnomon
