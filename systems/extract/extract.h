@@ -20,9 +20,9 @@ class Extractor {
 public:
     /// Updates the snapshot. `viewport_px`: size of the picture, both > 0. Meshes are indices in `library`. The cost is
     /// proportional to the changes: written components are updated in place. Added or removed instances cost a look at
-    /// each instance, and a list anew if they are a quarter of them; lights and cameras have lists of their own. An
-    /// unchanged scene costs nothing. `lacking`: meshes that the device does not have (GpuScene::lacking_meshes());
-    /// their instances are dropped.
+    /// each other one. A quarter of the scene at once is listed again, as are lights and cameras. An unchanged scene
+    /// costs nothing. `lacking`: meshes that the device does not have (GpuScene::lacking_meshes()); their instances are
+    /// dropped.
     void update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
                 glm::uvec2 viewport_px, SceneSnapshot& snapshot, std::span<const std::uint32_t> lacking = {});
 

@@ -19,7 +19,7 @@ public:
     bool any_mesh_changed(const assets::MeshLibrary& library, std::span<const std::uint32_t> lacking,
                           SceneSnapshot& snapshot);
 
-    /// Lists all instances anew.
+    /// Lists all instances again.
     void list(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
     enum class Splice : std::uint8_t { nothing, done, impossible };
@@ -44,7 +44,7 @@ public:
     /// their lists of casters and visible instances.
     bool mark(const ecs::Registry& registry, std::span<const ecs::Entity> shown, SceneSnapshot& snapshot);
 
-    /// Entities with a MeshRef that could not be listed.
+    /// Returns the entities with a MeshRef that could not be listed.
     const std::vector<DroppedEntity>& unusable() const { return unusable_; }
 
 private:
@@ -67,7 +67,7 @@ private:
     std::vector<DroppedEntity> unusable_;     // by the last list()
     std::vector<std::uint32_t> lacking_;      // as last seen
     std::uint64_t library_version_ = 0;       // as last seen
-    std::uint64_t shapes_version_ = 0;        // of the library, when snapshot.shapes was made
+    std::uint64_t shapes_version_ = 0;        // library's version when snapshot.shapes was made
     std::vector<ecs::Entity> entities_;       // scratch
     InstanceSplice splice_;                   // scratch
 };

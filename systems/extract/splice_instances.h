@@ -16,8 +16,8 @@ struct InstanceSplice {
     void clear();
 };
 
-/// Returns false if so many come or go that a list anew costs no more: that one makes each instance and sorts it into
-/// the tree, where a splice copies each.
+/// Returns false if a list made again costs no more. That one makes each instance and sorts it into the tree. A splice
+/// copies each.
 inline bool is_worth_splicing(std::size_t changes, const SceneSnapshot& scene) {
     constexpr std::size_t kPart = 4;
     return changes <= scene.instances.size() / kPart;

@@ -10,14 +10,14 @@
 
 namespace gnomon {
 
-/// A world whose snapshot is taken as a frame does it.
+/// World with a snapshot that is taken as a frame does it.
 class ExtractedWorldTest : public ::testing::Test {
 protected:
     void update() {
         const TransformReport& report = transforms.update(world.registry);
         extractor.update(world.registry, library, report, viewport_px, snapshot);
     }
-    /// The snapshot says what one that is made of the same world at once says.
+    /// Compares the snapshot with that of a fresh extractor.
     void expect_as_if_made_anew(const std::string& what) {
         TransformSystem fresh_transforms;
         Extractor fresh_extractor;
