@@ -13,6 +13,7 @@
 #include "engine/gl/device_recording.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/scene_tree.h"
+#include "systems/extract/splice_instances.h"
 #include "systems/shadow/request/light_kinds.h"
 #include "systems/shadow/shadow_system.h"
 
@@ -23,8 +24,9 @@ constexpr std::int64_t kFewCasters = 10000, kManyCasters = 1000000;
 constexpr double kWalkSight_m = 60.0, kStep_m = 1.4 / 60.0;
 constexpr std::uint32_t kSettlingFrames = 70, kTimedFrames = 200;
 
-enum class Motion : std::uint8_t { still, mover, walk };
+enum class Motion : std::uint8_t { still, mover, comes_and_goes, walk };
 constexpr std::array kMotions = {std::pair(Motion::still, "still"), std::pair(Motion::mover, "one mover"),
+                                 std::pair(Motion::comes_and_goes, "one comes and goes"),
                                  std::pair(Motion::walk, "walk")};
 
 assets::MeshLibrary boxes() {
@@ -65,6 +67,7 @@ private:
     void change(Motion motion, std::uint32_t frame) {
         scene_.changed_instances.clear();
         if (motion == Motion::walk) scene_.consumers[0].position_ws_m.z -= kStep_m;
+        if (motion == Motion::comes_and_goes) return exchange();
         if (motion != Motion::mover || shadows_->frame().sets.receiver_items.empty()) return;
         const std::uint32_t mover = shadows_->frame().sets.receiver_items.front();
         InstanceItem& item = scene_.instances[mover];
@@ -76,6 +79,23 @@ private:
         item.bounds_ws.max.x += step_m;
         scene_.changed_instances.push_back(mover);
         refit_tree(scene_);
+    }
+
+    /// Takes the first receiver out, or the one that was taken out in again.
+    void exchange() {
+        const bool comes = !splice_.removed.empty();
+        if (!comes && shadows_->frame().sets.receiver_items.empty()) return;
+        const std::uint32_t index = comes ? 0 : shadows_->frame().sets.receiver_items.front();
+        ++scene_.version;
+        if (comes) {
+            splice_.added.swap(gone_);
+            splice_.removed.clear();
+        } else {
+            gone_.assign(1, scene_.instances[index]);
+            splice_.added.clear();
+            splice_.removed.assign(1, index);
+        }
+        splice_instances(scene_, splice_);
     }
 
     double run_frame() {
@@ -93,6 +113,8 @@ private:
     gl::RecordingDevice device_;
     assets::MeshLibrary library_;
     SceneSnapshot scene_;
+    InstanceSplice splice_;
+    std::vector<InstanceItem> gone_;
     std::unique_ptr<GpuScene> gpu_;
     std::unique_ptr<shadow::ShadowSystem> shadows_;
     gl::CommandList list_;

@@ -11,7 +11,7 @@ bool DynamicCasters::update(const SceneSnapshot& scene) {
     ++frame_;
     changed_ = false;
     if (seen_ != 0 && scene.version != seen_) {
-        const bool all_are_named = scene.version == seen_ + 1 && scene.list_version != 0 && scene.list_version <= seen_;
+        const bool all_are_named = scene.version == seen_ + 1;  // see SceneSnapshot::version
         if (all_are_named)
             for (const std::uint32_t i : scene.changed_instances) touch(scene.instances[i]);
         else

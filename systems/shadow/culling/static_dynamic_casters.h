@@ -13,7 +13,7 @@ namespace gnomon::shadow {
 class DynamicCasters {
 public:
     /// Updates the classes; call once per frame. Returns true if any changed. Takes time for the changed instances
-    /// only, or for all where the scene's lists were rebuilt or a version was missed.
+    /// only, or for all where the scene's version grew by more than 1.
     bool update(const SceneSnapshot& scene);
 
     /// Returns a bit per gpu_slot, 1: dynamic. Empty where all are static.

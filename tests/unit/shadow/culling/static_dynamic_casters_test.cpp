@@ -76,10 +76,19 @@ TEST_F(CasterMotionTest, WhatAppearsLaterMovesAtFirst) {
     ++scene.version;
     add(200);
     scene.list_version = scene.version;
-    scene.changed_instances = {};  // lists that are made anew need not be named
+    scene.changed_instances = {200};
     EXPECT_TRUE(motion.update(scene));
     EXPECT_TRUE(moving(200));
     EXPECT_FALSE(moving(199));
+}
+
+TEST_F(CasterMotionTest, WhatAppearsUnnamedIsFoundWhereTheVersionSaysSo) {
+    scene.version += 2;
+    add(200);
+    scene.list_version = scene.version;
+    scene.changed_instances = {};
+    EXPECT_TRUE(motion.update(scene));
+    EXPECT_TRUE(moving(200));
 }
 
 TEST_F(CasterMotionTest, AMissedFrameLosesNothing) {
