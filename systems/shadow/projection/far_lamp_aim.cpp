@@ -35,17 +35,26 @@ double aims_below(const LightItem& light) {
     return std::max(kAlwaysAims, kSpotAims * std::min(std::tan(light.outer_cone_rad), 1.0));
 }
 
+/// Returns whether no box around this one can be aimed at. With the sine s of half the angle at which aiming ends, a
+/// ball of radius r at distance d has r <= s d. A box in it, of radius r' at distance d', has r' <= r and d <= d' + r.
+bool is_too_wide(const math::Aabb& box, const LightItem& light) {
+    constexpr double kRounding = 1.0 + 0x1p-20;
+    const double sine = kLeaves * aims_below(light);
+    const double distance_m = glm::distance(math::centre(box), light.position_ws_m);
+    return glm::length(math::half_extent(box)) > kRounding * sine / (1.0 - sine) * distance_m;
+}
+
 /// Returns the bounding box of all parts of receivers that are in some camera's frustum and in the light's range. Stops
-/// early at a receiver around the light, because no ball around it is small as the light sees it.
+/// at a part of them that is too wide to be aimed at: then the box of that part.
 math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
     const LightReach reach(light);
     math::Aabb lit;
-    bool around = false;
+    bool wide = false;
     for (const ConsumerItem& consumer : scene.consumers) {
         const math::Frustum frustum = consumer_frustum(consumer);
         const auto planes = math::planes_of(frustum);
         const auto classify = [&](const math::Aabb& box) {
-            if (around) return math::Overlap::outside;
+            if (wide) return math::Overlap::outside;
             const math::Overlap seen = math::overlap(planes, box);
             if (seen == math::Overlap::outside) return seen;
             const math::Overlap reached = reach.overlap(box);
@@ -53,13 +62,12 @@ math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
         };
         visit_instances(scene, classify, [&](std::uint32_t i) {
             const InstanceItem& item = scene.instances[i];
-            if (!item.visible || !receives_under(light, item)) return;
+            if (wide || !item.visible || !receives_under(light, item)) return;
             const math::Aabb reached = math::clipped_bounds(reach.cone(), reach.clipped(item.bounds_ws));
             const math::Aabb box = math::clipped_bounds(planes, reached);
             if (math::is_empty(box)) return;
             lit = math::merged(lit, box);
-            const double distance_m = glm::distance(math::centre(box), light.position_ws_m);
-            around = around || glm::length(math::half_extent(box)) > distance_m;
+            wide = is_too_wide(lit, light);
         });
     }
     return lit;

@@ -193,6 +193,31 @@ TEST(FarLampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
     EXPECT_FALSE(aims_at(0.95 * begins_m));
 }
 
+/// A search that ends at what is too wide for any aim must not end at what is not.
+TEST(FarLampAim, IsTheSameInWhateverOrderReceiversAreFound) {
+    const std::uint64_t seed = print_seed();
+    RandomScene random(seed);
+    int aimed = 0, wide = 0;
+    for (int round = 0; round < 400; ++round) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
+        SceneSnapshot scene = far_scene(random, kLamps[round % 2], 20.0 * std::exp2(0.02 * round));
+        const FarLampAim fresh = next_far_lamp_aim(scene, scene.lights[0], {});
+        const FarLampAim held = next_far_lamp_aim(scene, scene.lights[0], {true, {0.0, 0.0, 0.0}, 40.0});
+        std::reverse(scene.instances.begin(), scene.instances.end());
+        scene.tree_version = ~std::uint64_t{0};  // all are visited, in this order
+        const FarLampAim other = next_far_lamp_aim(scene, scene.lights[0], {});
+        const FarLampAim other_held = next_far_lamp_aim(scene, scene.lights[0], {true, {0.0, 0.0, 0.0}, 40.0});
+        EXPECT_EQ(fresh.used, other.used);
+        EXPECT_EQ(fresh.middle_ws_m, other.middle_ws_m);
+        EXPECT_EQ(fresh.radius_m, other.radius_m);
+        EXPECT_EQ(held.used, other_held.used);
+        EXPECT_EQ(held.radius_m, other_held.radius_m);
+        ++(fresh.used ? aimed : wide);
+    }
+    EXPECT_GT(aimed, 40);
+    EXPECT_GT(wide, 40);
+}
+
 TEST(FarLampAim, LeavesOutWhatTheConeAndTheRangeLeaveDark) {
     constexpr double kFar_m = 2e4;
     SceneSnapshot scene = yard(kFar_m);
