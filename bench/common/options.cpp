@@ -8,6 +8,7 @@
 #include "bench/frame/frame_times.h"
 #include "bench/judge/judge_pictures.h"
 #include "bench/text/wrap_lines.h"
+#include "sample_game/support/scene/open_scene.h"
 
 namespace gnomon::bench {
 namespace {
@@ -20,8 +21,7 @@ constexpr unsigned kMostThreads = 1024;
 constexpr double kLeastStep_px = 0.01, kMostStep_px = 100.0;
 
 void add_scene(CLI::App& command, Arguments& arguments) {
-    command.add_option("--scene", arguments.scenes,
-                       "glTF or GLB, valley, spheres or panes (default: the built-in courtyard)");
+    command.add_option("--scene", arguments.scenes, game::kSceneHelp);
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every light, as the game's --set")

@@ -81,7 +81,7 @@ private:
         refit_tree(scene_);
     }
 
-    /// Takes the first receiver out, or the one that was taken out in again.
+    /// Takes the first receiver out. The next call puts it in again.
     void exchange() {
         const bool comes = !splice_.removed.empty();
         if (!comes && shadows_->frame().sets.receiver_items.empty()) return;

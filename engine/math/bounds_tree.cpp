@@ -40,8 +40,8 @@ void BoundsTree::build_nodes() {
     append_tree();
 }
 
-/// Builds a tree over the items that are in none. Takes in the trees before it that are not twice as large, so that
-/// sizes fall by halves and items are built again a logarithm of times.
+/// Builds a tree over the items that are in none, and over those of earlier trees less than twice as large. Sizes then
+/// fall by halves, and an item is built again a logarithm of times.
 void BoundsTree::append_tree() {
     std::size_t first = leaf_of_.size();
     while (!trees_.empty() && first - trees_.back().first_slot < 2 * (items_.size() - first)) {

@@ -26,7 +26,7 @@ public:
         build_nodes();
     }
 
-    /// Removes and adds items, and numbers all anew in their order. `removed`: numbers before, rising. `added`: numbers
+    /// Removes and adds items, and renumbers all in their order. `removed`: numbers before, rising. `added`: numbers
     /// after, rising and below the new size; they have box_of(i). Applies earlier moves as well. O(items) for the
     /// numbers; added items cost a logarithm of the size each, in the mean over many calls.
     template <class BoxOf>

@@ -5,6 +5,7 @@
 
 #include "sample_game/app/debug_option.h"
 #include "sample_game/gui/keys.h"
+#include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/parse_number.h"
 
@@ -32,8 +33,7 @@ Error wrong(const std::string& message) { return {.message = on_one_line(message
 
 void declare(CLI::App& app, Typed& typed) {
     app.set_help_flag("-h,--help", "print this and exit");
-    app.add_option("--scene", typed.scene,
-                   "FILE: glTF or GLB, valley, spheres or panes (default: the built-in courtyard)");
+    app.add_option("--scene", typed.scene, kSceneHelp);
     app.add_option("--camera", typed.camera, "NAME|INDEX (default: the first, else framed on the scene)");
     app.add_option("--fit-camera", typed.fit_camera,
                    "NAME|INDEX: fit shadows to this camera, as it stands in the first frame");

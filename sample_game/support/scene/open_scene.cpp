@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gnomon/assets.h"
+#include "sample_game/support/built_in_scenes/city/city.h"
 #include "sample_game/support/built_in_scenes/courtyard/courtyard.h"
 #include "sample_game/support/built_in_scenes/panes.h"
 #include "sample_game/support/built_in_scenes/spheres.h"
@@ -15,6 +16,7 @@ Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>&
     if (file == kValleyScene) return assets::load_gltf_memory(make_valley().glb, {}, "built-in valley");
     if (file == kSpheresScene) return assets::load_gltf_memory(make_spheres().glb, {}, "built-in spheres");
     if (file == kPanesScene) return assets::load_gltf_memory(make_panes(), {}, "built-in panes");
+    if (file == kCityScene) return assets::load_gltf_memory(make_city().glb, {}, "built-in city");
     if (file) return assets::load_gltf(*file);
     return assets::load_gltf_memory(make_courtyard().glb, {}, "built-in courtyard");
 }

@@ -15,9 +15,14 @@ inline constexpr const char* kValleyScene = "valley";
 inline constexpr const char* kSpheresScene = "spheres";
 /// Name of the built-in scene of coloured glass.
 inline constexpr const char* kPanesScene = "panes";
+/// Name of the built-in scene of a hundred thousand instances and three hundred lamps.
+inline constexpr const char* kCityScene = "city";
+/// What --scene takes, for help texts.
+inline constexpr const char* kSceneHelp =
+    "FILE: glTF or GLB, valley, spheres, panes or city (default: the built-in courtyard)";
 
-/// Loads `file`, the valley, the spheres or the panes by their names, or the courtyard without a name. Built-in scenes
-/// are made in memory and take the same loader. Errors: as assets::load_gltf.
+/// Loads `file`, a built-in scene by its name, or the courtyard without a name. Built-in scenes are made in memory and
+/// take the same loader. Errors: as assets::load_gltf.
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file);
 
 /// Loads the courtyard with the game's additions.
