@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 namespace gnomon::gl {
 
@@ -133,6 +134,10 @@ struct Writer {
                field("base_vertex", c.base_vertex) + field("first_item", c.first_item) +
                field("item_count", c.item_count);
     }
+    std::string operator()(const DrawMeshesIndirect& c) const {
+        return "DrawMeshesIndirect" + field("records", c.records) + field("first_record", c.first_record) +
+               field("record_count", c.record_count) + field("end_index", c.end_index) + field("end_item", c.end_item);
+    }
     std::string operator()(const DrawTriangle& c) const {
         return c.depth ? "DrawTriangle" + field("depth", *c.depth) : "DrawTriangle";
     }
@@ -181,6 +186,30 @@ void GroupLabel::append(std::string_view text, std::size_t end) {
     while (count > 0 && count < text.size() && continues(count)) --count;
     std::copy_n(text.begin(), count, bytes_.begin() + size_);
     size_ = static_cast<std::uint8_t>(size_ + count);
+}
+
+void append_mesh_draws(const CommandList& list, const Command& command, std::vector<DrawMeshes>& draws) {
+    if (const auto* draw = std::get_if<DrawMeshes>(&command)) draws.push_back(*draw);
+    const auto* many = std::get_if<DrawMeshesIndirect>(&command);
+    if (many == nullptr) return;
+    const std::uint64_t first = std::uint64_t{many->first_record} * sizeof(MeshDrawRecord);
+    const std::uint64_t size = std::uint64_t{many->record_count} * sizeof(MeshDrawRecord);
+    const UpdateBuffer* upload = nullptr;
+    for (const Command& earlier : list.commands) {
+        if (&earlier == &command) break;
+        const auto* update = std::get_if<UpdateBuffer>(&earlier);
+        const bool holds = update != nullptr && update->buffer == many->records && update->offset <= first &&
+                           first - update->offset <= update->size && size <= update->size - (first - update->offset);
+        if (holds) upload = update;
+    }
+    if (upload == nullptr) return;
+    const std::byte* from = list.bytes.data() + upload->first + (first - upload->offset);
+    for (std::uint32_t i = 0; i < many->record_count; ++i) {
+        MeshDrawRecord record;
+        std::memcpy(&record, from + i * sizeof record, sizeof record);
+        draws.push_back(
+            {record.first_index, record.index_count, record.base_vertex, record.first_item, record.item_count});
+    }
 }
 
 std::string to_text(const Command& command) { return std::visit(Writer{}, command); }

@@ -170,6 +170,24 @@ struct DrawMeshes {  // triangles
     std::uint32_t first_item = 0, item_count = 0;  // instances, from draw_items
     bool operator==(const DrawMeshes&) const = default;
 };
+
+/// One draw of DrawMeshesIndirect, laid out as OpenGL reads it (DrawElementsIndirectCommand). Fields as in DrawMeshes.
+struct MeshDrawRecord {
+    std::uint32_t index_count = 0, item_count = 0, first_index = 0;
+    std::int32_t base_vertex = 0;
+    std::uint32_t first_item = 0;
+    bool operator==(const MeshDrawRecord&) const = default;
+};
+static_assert(sizeof(MeshDrawRecord) == 20);
+
+/// Draws as a DrawMeshes per record would, in their order: records [first_record, first_record + record_count) of an
+/// updated buffer. No record may reach beyond the ends, so that a device checks ranges once for all of them.
+struct DrawMeshesIndirect {
+    BufferHandle records{};  // MeshDrawRecord, one after the other
+    std::uint32_t first_record = 0, record_count = 0;
+    std::uint64_t end_index = 0, end_item = 0;  // upper bounds of first + count over the records
+    bool operator==(const DrawMeshesIndirect&) const = default;
+};
 struct DrawTriangle {                 // one full-screen triangle, vertex_count = 3, no attributes
     std::optional<float> depth = {};  // depth of the whole triangle, [0, 1]; overrides the shader's
     bool operator==(const DrawTriangle&) const = default;
@@ -238,10 +256,10 @@ struct EndTimer {
     bool operator==(const EndTimer&) const = default;
 };
 
-using Command =
-    std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture, BindUniforms,
-                 BindStorage, BindTexels, UpdateBuffer, ClearBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
-                 DrawPoints, DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
+using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
+                             BindUniforms, BindStorage, BindTexels, UpdateBuffer, ClearBuffer, BindMeshes, DrawMeshes,
+                             DrawMeshesIndirect, DrawTriangle, DrawLines, DrawPoints, DrawPulled, Dispatch, CopyBuffer,
+                             CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;
@@ -267,6 +285,10 @@ struct CommandList {
     }
     bool operator==(const CommandList&) const = default;
 };
+
+/// Appends the draws of meshes that a command of the list makes: none, one, or one per record. Records come
+/// from what the list itself uploads before the command; without that there are none.
+void append_mesh_draws(const CommandList& list, const Command& command, std::vector<DrawMeshes>& draws);
 
 /// Formats one line per command, for test failures and captures.
 std::string to_text(const Command& command);

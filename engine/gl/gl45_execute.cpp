@@ -158,6 +158,21 @@ public:
                                                       offset, static_cast<GLsizei>(c.item_count), c.base_vertex,
                                                       c.first_item);
     }
+    void operator()(const DrawMeshesIndirect& c) {
+        if (!can_draw(layout_.stride == 0 ? fixtures_.mesh_layout : fixtures_.other_layout)) return;
+        const GlBuffer* records = find_object(objects_.buffers, c.records.id);
+        if (indices_ == nullptr || records == nullptr || records->desc.use != BufferUse::updated ||
+            c.end_index > indices_->desc.size / layout_.index_bytes() || c.end_item > items_->desc.size / kItemBytes ||
+            !in_range(c.first_record, c.record_count, records->desc.size / sizeof(MeshDrawRecord))) {
+            return note(Failure::invalid_value);
+        }
+        state_.bind_draw_records(records->name);
+        // OpenGL takes the offset into the buffer as a pointer.
+        const auto bytes = static_cast<std::uintptr_t>(c.first_record) * sizeof(MeshDrawRecord);
+        const auto* offset = reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
+        glMultiDrawElementsIndirect(GL_TRIANGLES, layout_.short_indices ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT, offset,
+                                    static_cast<GLsizei>(c.record_count), sizeof(MeshDrawRecord));
+    }
     void operator()(const DrawTriangle& c) {
         constexpr GLsizei corners = 3;
         if (!can_draw(fixtures_.empty_layout)) return;

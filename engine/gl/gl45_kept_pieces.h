@@ -83,6 +83,7 @@ struct Bound {
     static void write(GLint value) { (*kBind)(kTarget, static_cast<GLuint>(value)); }
 };
 using DrawFramebuffer = Bound<GL_DRAW_FRAMEBUFFER_BINDING, &epoxy_glBindFramebuffer, GL_DRAW_FRAMEBUFFER>;
+using DrawRecordBuffer = Bound<GL_DRAW_INDIRECT_BUFFER_BINDING, &epoxy_glBindBuffer, GL_DRAW_INDIRECT_BUFFER>;
 using UnpackBuffer = Bound<GL_PIXEL_UNPACK_BUFFER_BINDING, &epoxy_glBindBuffer, GL_PIXEL_UNPACK_BUFFER>;
 using PackBuffer = Bound<GL_PIXEL_PACK_BUFFER_BINDING, &epoxy_glBindBuffer, GL_PIXEL_PACK_BUFFER>;
 using QueryBuffer = Bound<GL_QUERY_BUFFER_BINDING, &epoxy_glBindBuffer, GL_QUERY_BUFFER>;

@@ -278,6 +278,8 @@ void KeptState::bind_meshes(GLuint vertices, GLuint items, GLuint indices, const
     has_meshes_ = true;
 }
 
+void KeptState::bind_draw_records(GLuint buffer) { draw_records_.set(static_cast<GLint>(buffer)); }
+
 void KeptState::unbind_free_inputs() {
     const GlProgram* program = std::exchange(inputs_, nullptr);
     if (program == nullptr) return;
@@ -314,6 +316,7 @@ void KeptState::restore_bindings() {
     for (Kept<BufferBinding>& binding : uniforms_) binding.restore();
     for (Kept<BufferBinding>& binding : storage_) binding.restore();
     vertex_array_.restore();
+    draw_records_.restore();
     framebuffer_.restore();
 }
 

@@ -43,6 +43,7 @@ public:
     void bind_uniforms(std::uint32_t binding, GLuint buffer, std::uint32_t offset, std::uint32_t size) override;
     void bind_storage(std::uint32_t binding, GLuint buffer) override;
     void bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& layout) override;
+    void bind_draw_records(GLuint buffer) override;
 
 private:
     static constexpr std::size_t kTargets = 11, kCapabilities = 31, kViewports = 16;
@@ -81,6 +82,7 @@ private:
     Kept<DepthMask> depth_mask_;
     Kept<DrawFramebuffer> framebuffer_;
     Kept<VertexArray> vertex_array_;
+    Kept<DrawRecordBuffer> draw_records_;
     Kept<ProgramInUse> program_;
     Kept<ActiveTexture> active_unit_;
     KeptSubroutines subroutines_;

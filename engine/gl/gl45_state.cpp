@@ -118,6 +118,7 @@ void GlState::begin_list() {
 Failure GlState::end_list() {
     reset();
     drop_meshes();
+    if (std::exchange(has_draw_records_, false)) glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return take_gl_error();
 }
@@ -183,6 +184,11 @@ void GlState::bind_uniforms(std::uint32_t binding, GLuint buffer, std::uint32_t 
 
 void GlState::bind_storage(std::uint32_t binding, GLuint buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
+}
+
+void GlState::bind_draw_records(GLuint buffer) {
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
+    has_draw_records_ = true;
 }
 
 void GlState::bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& other) {

@@ -39,6 +39,8 @@ public:
     virtual void bind_uniforms(std::uint32_t binding, GLuint buffer, std::uint32_t offset, std::uint32_t size);
     virtual void bind_storage(std::uint32_t binding, GLuint buffer);
     virtual void bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& layout);
+    /// Binds a buffer of MeshDrawRecord for draws that read it.
+    virtual void bind_draw_records(GLuint buffer);
 
 protected:
     /// Rebinds nothing, because a vertex array keeps deleted buffers alive.
@@ -46,6 +48,7 @@ protected:
 
     const GlFixtures& fixtures_;
     bool has_other_meshes_ = false;  // the list bound meshes with a layout of someone else
+    bool has_draw_records_ = false;  // the list bound a buffer of draws
     bool in_target_ = false;         // the last pass drew into a target, not into the window
     Rect scissor_{};                 // width 0: off
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "engine/gl/device_recording.h"
@@ -110,16 +111,24 @@ public:
     }
     void operator()(const DrawMeshes& c) {
         check_draw();
-        if (!has_meshes_) return find(Misuse::draw_without_meshes, "BindMeshes comes first");
-        const RecordedBuffer& indices = objects_.buffers.at(meshes_.indices.id);
-        if (!in_range(c.first_index, c.index_count, indices.bytes.size() / meshes_.layout.index_bytes())) {
-            find(Misuse::draw_out_of_range, "indices beyond \"" + indices.desc.label + '"');
-        } else {
-            check_vertices(c, indices);
+        check_mesh_draw(c);
+    }
+    void operator()(const DrawMeshesIndirect& c) {
+        check_draw();
+        if (!known(objects_.buffers, c.records.id, "records")) return;
+        const RecordedBuffer& records = objects_.buffers.at(c.records.id);
+        if (records.desc.use != BufferUse::updated ||
+            !in_range(c.first_record, c.record_count, records.bytes.size() / sizeof(MeshDrawRecord))) {
+            return find(Misuse::draw_out_of_range, "records beyond \"" + records.desc.label + '"');
         }
-        const RecordedBuffer& items = objects_.buffers.at(meshes_.draw_items.id);
-        if (!in_range(c.first_item, c.item_count, items.bytes.size() / kItemBytes)) {
-            find(Misuse::draw_out_of_range, "items beyond \"" + items.desc.label + '"');
+        for (std::uint32_t i = 0; i < c.record_count; ++i) {
+            MeshDrawRecord r;
+            std::memcpy(&r, records.bytes.data() + (std::size_t{c.first_record} + i) * sizeof r, sizeof r);
+            if (!in_range(r.first_index, r.index_count, c.end_index) ||
+                !in_range(r.first_item, r.item_count, c.end_item)) {
+                return find(Misuse::draw_out_of_range, "record " + std::to_string(i) + " beyond the ends");
+            }
+            check_mesh_draw({r.first_index, r.index_count, r.base_vertex, r.first_item, r.item_count});
         }
     }
     void operator()(const DrawTriangle&) { check_draw(); }
@@ -251,6 +260,19 @@ private:
         if (!has_pipeline_) find(Misuse::draw_without_pipeline, "SetPipeline comes first");
         for (const auto& [unit, texture] : textures_) {
             if (written(target_, texture)) find(Misuse::feedback_loop, "unit " + std::to_string(unit));
+        }
+    }
+    void check_mesh_draw(const DrawMeshes& c) {
+        if (!has_meshes_) return find(Misuse::draw_without_meshes, "BindMeshes comes first");
+        const RecordedBuffer& indices = objects_.buffers.at(meshes_.indices.id);
+        if (!in_range(c.first_index, c.index_count, indices.bytes.size() / meshes_.layout.index_bytes())) {
+            find(Misuse::draw_out_of_range, "indices beyond \"" + indices.desc.label + '"');
+        } else {
+            check_vertices(c, indices);
+        }
+        const RecordedBuffer& items = objects_.buffers.at(meshes_.draw_items.id);
+        if (!in_range(c.first_item, c.item_count, items.bytes.size() / kItemBytes)) {
+            find(Misuse::draw_out_of_range, "items beyond \"" + items.desc.label + '"');
         }
     }
     void check_vertices(const DrawMeshes& c, const RecordedBuffer& indices) {

@@ -2,6 +2,7 @@ gnomon_tests(NAME gl_device LABEL gl SOURCES
   device_context_gl_test.cpp
   device_depth_gl_test.cpp
   device_draw_gl_test.cpp
+  device_draw_records_gl_test.cpp
   device_imports_gl_test.cpp
   device_pulled_gl_test.cpp
   device_readback_gl_test.cpp
@@ -11,6 +12,7 @@ gnomon_tests(NAME gl_device LABEL gl SOURCES
 gnomon_tests(NAME gl_device_kept LABEL gl SOURCES
   device_depth_gl_test.cpp
   device_draw_gl_test.cpp
+  device_draw_records_gl_test.cpp
   device_imports_gl_test.cpp
   device_pulled_gl_test.cpp
   device_readback_gl_test.cpp

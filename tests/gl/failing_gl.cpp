@@ -192,11 +192,11 @@ FailingGl::FailingGl() {
     call_once();
     state = {};
     make_fallible<&epoxy_glTextureStorage2D, &epoxy_glTextureStorage3D, &epoxy_glNamedBufferStorage,
-                  &epoxy_glNamedBufferData, &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap, &epoxy_glClearNamedBufferData,
-                  &epoxy_glNamedBufferSubData, &epoxy_glClearBufferfv, &epoxy_glDrawArrays,
-                  &epoxy_glDrawElementsInstancedBaseVertexBaseInstance, &epoxy_glGetTextureSubImage,
-                  &epoxy_glDispatchCompute, &epoxy_glCopyNamedBufferSubData, &epoxy_glCopyImageSubData,
-                  &epoxy_glGetNamedBufferSubData>();
+                  &epoxy_glNamedBufferData, &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap,
+                  &epoxy_glClearNamedBufferData, &epoxy_glNamedBufferSubData, &epoxy_glClearBufferfv,
+                  &epoxy_glDrawArrays, &epoxy_glDrawElementsInstancedBaseVertexBaseInstance,
+                  &epoxy_glMultiDrawElementsIndirect, &epoxy_glGetTextureSubImage, &epoxy_glDispatchCompute,
+                  &epoxy_glCopyNamedBufferSubData, &epoxy_glCopyImageSubData, &epoxy_glGetNamedBufferSubData>();
     make_unmappable<&epoxy_glMapBuffer, &epoxy_glMapBufferRange, &epoxy_glMapNamedBuffer,
                     &epoxy_glMapNamedBufferRange>();
     count_created<&epoxy_glCreateBuffers, &epoxy_glCreateFramebuffers, &epoxy_glCreateSamplers,

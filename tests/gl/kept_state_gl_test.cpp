@@ -122,6 +122,7 @@ protected:
             }
             list.add(gl::BindMeshes{storage, storage, storage});
             list.add(gl::DrawMeshes{0, 3, 0, 0, 1});
+            list.add(gl::DrawMeshesIndirect{storage, 0, 2, 3, 1});
             list.add(gl::EndPass{true});
             list.add(gl::EndTimer{4});
             list.add(gl::BindTexture{4, {}, {}});

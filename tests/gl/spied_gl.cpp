@@ -173,6 +173,7 @@ struct Spy<Slot> {
     X(MemoryBarrier)                                \
     X(NamedBufferData)                              \
     X(MapNamedBufferRange)                          \
+    X(MultiDrawElementsIndirect)                    \
     X(NamedBufferStorage)                           \
     X(NamedBufferSubData)                           \
     X(NamedFramebufferDrawBuffers)                  \
