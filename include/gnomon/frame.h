@@ -134,7 +134,8 @@ struct LightCounts {
     std::uint32_t views_drawn = 0;        // drawn in this frame
     std::uint64_t texels = 0;             // size of its map
     std::uint64_t bytes = 0;              // its memory, kept visibility included
-    std::uint32_t draws = 0, clears = 0;  // draw calls and clears of maps in this frame
+    std::uint32_t draws = 0, clears = 0;  // draws of meshes, or parts of them, and clears of maps in this frame
+    std::uint32_t draw_commands = 0;      // commands that make those draws; one makes all that need the same state
     std::uint64_t triangles = 0;          // drawn into maps in this frame
     std::uint32_t by_depth = 0;           // casters without triangles, where its filter reads those of others
 };

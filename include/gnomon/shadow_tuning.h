@@ -161,6 +161,9 @@ struct ShadowTuning {
         DepthFormat depth_format = DepthFormat::d32f;
         /// Route of a cube's faces. Change it only if another one measures faster on your device.
         CubeRoute cube_route = CubeRoute::automatic;
+        /// Draws of all meshes that need the same state as one command. false: a command per draw, to the same bits.
+        /// Change it only to compare what commands cost.
+        bool multi_draw = true;
         bool operator==(const Maps&) const = default;
     };
     /// Results kept from one frame to the next.

@@ -76,6 +76,7 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"texels", light.counts.texels},
             {"bytes", light.counts.bytes},
             {"draws", light.counts.draws},
+            {"draw_commands", light.counts.draw_commands},
             {"clears", light.counts.clears},
             {"triangles", light.counts.triangles},
             {"cpu_us", light.cpu_us},
@@ -88,11 +89,12 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
 }  // namespace
 
 Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) {
-    std::uint64_t views = 0, draws = 0, clears = 0, triangles = 0, bytes = 0;
+    std::uint64_t views = 0, draws = 0, draw_commands = 0, clears = 0, triangles = 0, bytes = 0;
     Json lights = Json::array(), dropped = Json::array();
     for (const LightReport& light : report.lights) {
         views += light.counts.views_drawn;
         draws += light.counts.draws;
+        draw_commands += light.counts.draw_commands;
         clears += light.counts.clears;
         triangles += light.counts.triangles;
         bytes += light.counts.bytes;
@@ -105,6 +107,7 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
                    {"still", report.still},
                    {"views", views},
                    {"draws", draws},
+                   {"draw_commands", draw_commands},
                    {"clears", clears},
                    {"triangles", triangles},
                    {"bytes", bytes},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/math/projection.h"
+#include "systems/extract/depth_runs.h"
 
 namespace gnomon {
 namespace {
@@ -38,6 +39,7 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
     if (meshes != gl::Failure::none) return failed("the scene's meshes", meshes);
     const SceneMaterials::Failed materials = scene.materials_.create(device, library);
     if (materials.failure != gl::Failure::none) return failed(materials.what, materials.failure);
+    scene.update_depth_facts();
     return scene;
 }
 
@@ -51,6 +53,8 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     instance_capacity_ = std::exchange(other.instance_capacity_, 0);
     upload_all_ = std::exchange(other.upload_all_, false);
     records_ = std::move(other.records_);
+    depth_facts_ = std::move(other.depth_facts_);
+    seen_materials_ = std::exchange(other.seen_materials_, 0);
     return *this;
 }
 
@@ -62,6 +66,44 @@ void GpuScene::release() {
 void GpuScene::update_meshes(gl::CommandList& list) {
     materials_.follow(list);
     meshes_.follow(materials_, list);
+    update_depth_facts();
+}
+
+void GpuScene::put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) {
+    meshes_.put_engine_mesh(mesh, of);
+    update_depth_facts();
+}
+
+/// Makes facts of the meshes that came or went; of all, if some material did.
+void GpuScene::update_depth_facts() {
+    depth_facts_.resize(meshes_.count());
+    const bool all = std::exchange(seen_materials_, materials_.version()) != materials_.version();
+    for (std::uint32_t m = 0; all && m < depth_facts_.size(); ++m) depth_facts_[m] = make_depth_facts(m);
+    for (const std::uint32_t m : meshes_.changed())
+        if (!all) depth_facts_[m] = make_depth_facts(m);
+    meshes_.forget_changed();
+}
+
+MeshDepthFacts GpuScene::make_depth_facts(std::uint32_t mesh) const {
+    const MeshRange& range = meshes_.mesh(mesh);
+    MeshDepthFacts facts;
+    facts.solid = range.solid;
+    facts.base_vertex = range.base_vertex;
+    for (std::uint32_t s = 0; s < range.submesh_count; ++s) {
+        const std::uint32_t material = submesh(range.first_submesh + s).material;
+        if (material >= materials_.count()) return {};  // a mesh that no snapshot may list
+        facts.masked |= materials_.material(material).alpha_mode == assets::AlphaMode::mask;
+    }
+    DepthRun only;
+    for_each_depth_run(*this, mesh, [&](const DepthRun& run) {
+        only = run;
+        ++facts.draws;
+    });
+    if (facts.draws == 1 && only.mask == nullptr && only.engine == nullptr) {
+        facts.first_index = only.first_index;
+        facts.index_count = only.index_count;
+    }
+    return facts;
 }
 
 bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {

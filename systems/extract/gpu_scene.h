@@ -57,11 +57,14 @@ public:
     bool provide_caster_triangles() { return meshes_.provide_caster_triangles(); }
 
     /// Does what SceneMeshes does of the same name. The buffers stay their owner's.
-    void put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) { meshes_.put_engine_mesh(mesh, of); }
+    void put_engine_mesh(std::uint32_t mesh, const EngineMesh& of);
     const EngineMesh* engine_mesh(std::uint32_t mesh) const { return meshes_.engine_mesh(mesh); }
     const MeshRange& mesh(std::uint32_t index) const { return meshes_.mesh(index); }
+    /// Returns what depth passes need of the mesh. Made once, when the mesh or some material came.
+    const MeshDepthFacts& depth_facts(std::uint32_t mesh) const { return depth_facts_[mesh]; }
     const SubmeshRange& submesh(std::uint32_t index) const { return meshes_.submesh(index); }
     const MaterialInfo& material(std::uint32_t index) const { return materials_.material(index); }
+    bool any_masked() const { return materials_.any_masked(); }         // any material is masked
     bool any_unlit() const { return materials_.any_unlit(); }           // any material is unlit
     bool any_transmits() const { return materials_.any_transmits(); }   // any material is of a translucent caster
     float most_emissive() const { return materials_.most_emissive(); }  // maximum over lit materials and channels
@@ -94,6 +97,8 @@ private:
     GpuScene() = default;
     void release();
     void update_instances(const SceneSnapshot& snapshot, gl::CommandList& list);
+    void update_depth_facts();
+    MeshDepthFacts make_depth_facts(std::uint32_t mesh) const;
 
     gl::Device* device_ = nullptr;
     SceneMeshes meshes_;
@@ -102,6 +107,8 @@ private:
     std::uint32_t instance_capacity_ = 0;
     bool upload_all_ = false;
     std::vector<InstanceRecord> records_;
+    std::vector<MeshDepthFacts> depth_facts_;  // by mesh
+    std::uint64_t seen_materials_ = 0;         // SceneMaterials::version() that they follow
 };
 
 }  // namespace gnomon

@@ -24,6 +24,16 @@ struct SubmeshRange {
     std::uint32_t material = 0;
 };
 
+/// What depth passes need of a mesh to draw it (depth_runs.h), without a look at its submeshes.
+struct MeshDepthFacts {
+    /// Indices of its only draw, if that is opaque and in the scene's buffers. Count 0: for_each_depth_run() has them.
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t base_vertex = 0;
+    std::uint32_t draws = 0;  // number of DepthRuns; 0: nothing of it is drawn in a depth pass
+    bool solid = false;       // MeshRange::solid
+    bool masked = false;      // some submesh is masked
+};
+
 /// Mesh in buffers of someone else. Depth passes draw it from there; nothing else knows its triangles.
 struct EngineMesh {
     gl::BufferHandle vertices{}, indices{};

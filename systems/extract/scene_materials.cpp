@@ -55,6 +55,8 @@ SceneMaterials& SceneMaterials::operator=(SceneMaterials&& other) noexcept {
     unwritten_ = std::move(other.unwritten_);
     unconfirmed_ = std::move(other.unconfirmed_);
     lacks_ = other.lacks_;
+    version_ = other.version_;
+    any_masked_ = other.any_masked_;
     any_unlit_ = other.any_unlit_;
     any_transmits_ = other.any_transmits_;
     most_emissive_ = other.most_emissive_;
@@ -159,6 +161,7 @@ gl::Failure SceneMaterials::make_info(std::size_t m) {
     const assets::Material& material = library_->materials[m];
     MaterialInfo& info = materials_[m];
     info = {};
+    ++version_;
     info.uniform_offset =
         static_cast<std::uint32_t>(m) * aligned(sizeof(MaterialRecord), device_->info().uniform_alignment);
     info.alpha_mode = material.alpha_mode;
@@ -184,9 +187,10 @@ gl::Failure SceneMaterials::make_info(std::size_t m) {
 
 /// Notes what follows from all materials together.
 void SceneMaterials::note_lights() {
-    any_unlit_ = any_transmits_ = false;
+    any_masked_ = any_unlit_ = any_transmits_ = false;
     most_emissive_ = 0.0f;
     for (const assets::Material& material : library_->materials) {
+        any_masked_ |= material.alpha_mode == assets::AlphaMode::mask;
         any_unlit_ |= material.unlit;
         any_transmits_ |= assets::transmits(material);
         for (int i = 0; i < 3 && !material.unlit; ++i) most_emissive_ = std::max(most_emissive_, material.emissive[i]);

@@ -55,6 +55,11 @@ public:
     /// Returns true if the device has the material.
     bool has(std::uint32_t material) const { return material < held_.size() && held_[material].held; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
+    /// Returns the number of slots of materials.
+    std::size_t count() const { return materials_.size(); }
+    /// Returns a number that grows whenever material() gives something else.
+    std::uint64_t version() const { return version_; }
+    bool any_masked() const { return any_masked_; }
     bool any_unlit() const { return any_unlit_; }
     bool any_transmits() const { return any_transmits_; }
     float most_emissive() const { return most_emissive_; }
@@ -90,7 +95,8 @@ private:
     std::vector<Held> held_;  // by material
     std::vector<std::size_t> unwritten_, unconfirmed_;
     bool lacks_ = false;  // some material or texture is not on the device
-    bool any_unlit_ = false, any_transmits_ = false;
+    std::uint64_t version_ = 0;
+    bool any_masked_ = false, any_unlit_ = false, any_transmits_ = false;
     float most_emissive_ = 0.0f;
     std::uint64_t seen_ = 0;
     Retry retry_;

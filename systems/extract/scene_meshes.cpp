@@ -102,6 +102,7 @@ void SceneMeshes::add_range(std::uint32_t m, std::uint32_t first_vertex, std::ui
                                                submesh.material};
     }
     if (mesh.deformer) bent_.insert(bent_at(m), Bent{m, 0, mesh.vertices, {}});
+    changed_.push_back(m);
 }
 
 void SceneMeshes::put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) {
@@ -115,6 +116,7 @@ void SceneMeshes::put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) {
     ranges_[mesh] = {};
     ranges_[mesh].triangles = of.index_count / 3;
     if (of.index_count > 0) ranges_[mesh].most_reflected = most_reflected({});
+    changed_.push_back(mesh);
 }
 
 std::vector<SceneMeshes::Bent>::iterator SceneMeshes::bent_at(std::uint32_t mesh) {

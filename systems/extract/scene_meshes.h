@@ -70,6 +70,9 @@ public:
         const bool is = mesh < engine_meshes_.size() && engine_meshes_[mesh].index_count > 0;
         return is ? &engine_meshes_[mesh] : nullptr;
     }
+    /// Returns meshes that got or lost their places since forget_changed(); one may be named several times.
+    std::span<const std::uint32_t> changed() const { return changed_; }
+    void forget_changed() { changed_.clear(); }
     const DeviceArrays& vertex_arrays() const { return vertex_arrays_; }
     const DeviceArrays& triangle_arrays() const { return triangle_arrays_; }
 
@@ -122,7 +125,7 @@ private:
     std::vector<SubmeshRange> submeshes_;
     RangeList submesh_places_;
     std::vector<Bent> bent_;  // all deformable meshes, sorted by mesh
-    std::vector<std::uint32_t> waiting_, unwritten_, unconfirmed_;
+    std::vector<std::uint32_t> waiting_, unwritten_, unconfirmed_, changed_;
     std::vector<glm::vec4> texel_scratch_;
     std::vector<CasterTriangle> caster_scratch_;
     Retry room_retry_, casters_retry_;

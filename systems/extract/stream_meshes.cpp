@@ -51,6 +51,7 @@ void SceneMeshes::take_away(std::uint32_t m) {
     if (bent_of(m)) bent_.erase(bent_at(m));
     held_[m] = {};
     ranges_[m] = {};
+    changed_.push_back(m);
 }
 
 void SceneMeshes::place_waiting(const SceneMaterials& materials, gl::CommandList& list) {

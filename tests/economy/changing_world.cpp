@@ -43,6 +43,7 @@ void ChangingWorld::put_any_shadow(ecs::Entity light) {
     tuning.cascades.splits = chance(0.5) ? CascadeSplits::practical : CascadeSplits::seen;
     shadow.caster_faces = static_cast<CasterFaces>(below(4));
     tuning.maps.cube_route = static_cast<CubeRoute>(below(4));
+    tuning.maps.multi_draw = below(4) > 0;
     tuning.maps.depth_format = static_cast<DepthFormat>(below(3));
     if (chance(0.3)) shadow.layers = static_cast<ShadowLayers>(1u + below(3));
     const bool is_wide = chance(0.3);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "shaders/bindings.h"
 #include "systems/extract/gpu_scene.h"
@@ -74,17 +75,20 @@ void MapContents::draw(const gl::CommandList& list, const gl::RecordingDevice& d
             bound.instances = *b;
         if (const auto* b = std::get_if<gl::BindMeshes>(&command)) bound.meshes = *b;
         if (const auto* p = std::get_if<gl::SetPipeline>(&command)) bound.pipeline = p->state;
-        const auto* draw = std::get_if<gl::DrawMeshes>(&command);
-        if (!draw || !map) continue;
+        if (!map) continue;
         const auto items = device.buffer_bytes(bound.meshes.draw_items);
-        for (std::uint32_t i = draw->first_item; i < draw->first_item + draw->item_count; ++i) {
-            std::uint32_t item[2];  // instance, place
-            std::memcpy(item, items.data() + i * sizeof item, sizeof item);
-            const bool layered = map->layer == gl::kAllLayers;
-            const std::uint32_t layer = layered ? item[1] & ((1u << kLayerBits) - 1u) : 0u;
-            // A sum: of what is drawn, the nearest stays, whoever came first.
-            layers_[{map->texture.id, layered ? static_cast<std::int32_t>(layer) : map->layer}] +=
-                drawn(*draw, bound, item[0], layer, device);
+        std::vector<gl::DrawMeshes> draws;
+        gl::append_mesh_draws(list, command, draws);
+        for (const gl::DrawMeshes& draw : draws) {
+            for (std::uint32_t i = draw.first_item; i < draw.first_item + draw.item_count; ++i) {
+                std::uint32_t item[2];  // instance, place
+                std::memcpy(item, items.data() + i * sizeof item, sizeof item);
+                const bool layered = map->layer == gl::kAllLayers;
+                const std::uint32_t layer = layered ? item[1] & ((1u << kLayerBits) - 1u) : 0u;
+                // A sum: of what is drawn, the nearest stays, whoever came first.
+                layers_[{map->texture.id, layered ? static_cast<std::int32_t>(layer) : map->layer}] +=
+                    drawn(draw, bound, item[0], layer, device);
+            }
         }
     }
 }

@@ -393,7 +393,7 @@ TEST_F(SolidCasters, ShareThePipelineWithTheirLike) {
     world.add_mesh(kMaskedBox, {-1, 1, 0}, true);
     world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     step();
-    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none, gl::CullMode::none, gl::CullMode::back));
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none, gl::CullMode::back, gl::CullMode::none));
 }
 
 }  // namespace

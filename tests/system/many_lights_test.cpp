@@ -77,13 +77,15 @@ protected:
             if (const auto* g = std::get_if<gl::BeginGroup>(&command)) group = g->label.text();
             if (std::get_if<gl::BeginPass>(&command)) is_depth = group.rfind("shadow ", 0) == 0;
             if (const auto* b = std::get_if<gl::BindMeshes>(&command)) items = b->draw_items;
-            const auto* draw = std::get_if<gl::DrawMeshes>(&command);
-            if (!draw || !is_depth) continue;
-            for (std::uint32_t i = 0; i < draw->item_count; ++i) {
-                std::uint32_t drawn = 0;
-                std::memcpy(&drawn, device.buffer_bytes(items).data() + (draw->first_item + i) * 8, sizeof drawn);
-                if (drawn == slot) names.insert(group);
-            }
+            if (!is_depth) continue;
+            std::vector<gl::DrawMeshes> draws;
+            gl::append_mesh_draws(frame->commands(), command, draws);
+            for (const gl::DrawMeshes& draw : draws)
+                for (std::uint32_t i = 0; i < draw.item_count; ++i) {
+                    std::uint32_t drawn = 0;
+                    std::memcpy(&drawn, device.buffer_bytes(items).data() + (draw.first_item + i) * 8, sizeof drawn);
+                    if (drawn == slot) names.insert(group);
+                }
         }
         return names;
     }

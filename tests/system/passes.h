@@ -14,7 +14,8 @@ struct Pass {
     gl::BeginPass begin;
     bool is_depth = false;                    // its target has no colours but triangles
     std::vector<gl::PipelineState> pipelines; // as set, in order
-    std::vector<gl::DrawMeshes> draws;
+    std::vector<gl::DrawMeshes> draws;        // in order, whatever command makes them
+    std::vector<std::size_t> draws_by_command;  // number of draws of each command that draws meshes
 };
 
 inline std::vector<Pass> passes_of(const gl::CommandList& list, const gl::RecordingDevice& device) {
@@ -29,10 +30,14 @@ inline std::vector<Pass> passes_of(const gl::CommandList& list, const gl::Record
                 return device.texture(colour.texture)->format == shadow::kTriangleFormat;
             };
             const bool is_depth = target && std::all_of(target->colours.begin(), target->colours.end(), is_triangles);
-            passes.push_back({groups.empty() ? "" : groups.back(), *b, is_depth, {}, {}});
+            passes.push_back({groups.empty() ? "" : groups.back(), *b, is_depth, {}, {}, {}});
         }
         if (const auto* p = std::get_if<gl::SetPipeline>(&command); p && !passes.empty()) passes.back().pipelines.push_back(p->state);
-        if (const auto* d = std::get_if<gl::DrawMeshes>(&command); d && !passes.empty()) passes.back().draws.push_back(*d);
+        if (passes.empty()) continue;
+        const std::size_t before = passes.back().draws.size();
+        gl::append_mesh_draws(list, command, passes.back().draws);
+        if (const std::size_t added = passes.back().draws.size() - before; added > 0)
+            passes.back().draws_by_command.push_back(added);
     }
     return passes;
 }

@@ -104,8 +104,9 @@ TEST_F(Programs, OnlyMaskedSubmeshesPayForDiscardingAndForTheirTexture) {
     for (const gl::Command& command : frame->commands().commands) {
         if (const auto* b = std::get_if<gl::BeginPass>(&command)) in_depth = device.target(b->target)->colours.empty();
         if (const auto* p = std::get_if<gl::SetPipeline>(&command)) program = device.program(p->state.program);
-        const auto* draw = std::get_if<gl::DrawMeshes>(&command);
-        if (!draw || !in_depth) continue;
+        std::vector<gl::DrawMeshes> draws;
+        gl::append_mesh_draws(frame->commands(), command, draws);
+        if (draws.empty() || !in_depth) continue;
         ASSERT_NE(program, nullptr);
         // What discards and what it reads stands between #ifdef MASKED and #else.
         const std::string& source = program->fragment;
@@ -114,7 +115,7 @@ TEST_F(Programs, OnlyMaskedSubmeshesPayForDiscardingAndForTheirTexture) {
         ASSERT_LT(source.find("#ifdef MASKED"), source.find("discard"));
         for (const char* cost : {"discard", "sampler2D", "fragment_uv"})
             EXPECT_EQ(source.find(cost, source.rfind("#else")), std::string::npos) << cost;
-        (discards ? masked : opaque) += draw->index_count * draw->item_count;
+        for (const gl::DrawMeshes& draw : draws) (discards ? masked : opaque) += draw.index_count * draw.item_count;
     }
     EXPECT_EQ(opaque, 36u + 36u + 18u) << "the stage's box, the solid one, half of the mixed one";
     EXPECT_EQ(masked, 36u + 18u);

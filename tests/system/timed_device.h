@@ -133,16 +133,19 @@ private:
             } else if (const auto* state = std::get_if<gl::SetPipeline>(&command)) {
                 if (is_decided(program)) pixels *= speeds.left;
                 program = state->state.program;
-            } else if (const auto* draw = std::get_if<gl::DrawMeshes>(&command)) {
-                ns += speeds.draw + speeds.triangle * draw->index_count / 3 * draw->item_count;
             } else if (std::holds_alternative<gl::DrawTriangle>(command)) {
                 lookups_ns += pixels * lookup_ns(program);
                 ns += pixels * (speeds.shaded_pixel + lookup_ns(program));
             }
+            draws_.clear();
+            gl::append_mesh_draws(list, command, draws_);
+            for (const gl::DrawMeshes& draw : draws_)
+                ns += speeds.draw + speeds.triangle * draw.index_count / 3 * draw.item_count;
         }
     }
 
     std::vector<Map> maps_;
+    std::vector<gl::DrawMeshes> draws_;            // of one command
     std::vector<gl::Timing> timings_;              // of the last submission
     std::deque<std::vector<gl::Timing>> answers_;  // not yet taken
 };

@@ -110,6 +110,7 @@ constexpr std::array kCost{
     SettingUse{"refresh_error_px", for_automatic_bias, "bias automatic"},
     SettingUse{"depth_format", for_depths, "a filter other than exact and exact_soft"},
     SettingUse{"cube_route", for_point, "a point light"},
+    SettingUse{"multi_draw"},
     SettingUse{"early_bail", for_many_taps, "a filter of many taps"},
     SettingUse{"economy"},
     SettingUse{"keep_visibility"},

@@ -224,6 +224,13 @@ constexpr std::array kMapsRows{
                  .get = get_word<Maps<&M::cube_route>>,
                  .editor = kChoice,
                  .choice = word<CubeRoute>},
+    LightSetting{.key = "multi_draw",
+                 .field = "ShadowTuning::maps.multi_draw",
+                 .values = "on | off",
+                 .meaning = "off: a command per mesh and map; the maps are the same",
+                 .set = set_switch<Maps<&M::multi_draw>>,
+                 .get = get_switch<Maps<&M::multi_draw>>,
+                 .editor = kToggle},
 };
 
 using R = ShadowTuning::Reuse;

@@ -146,6 +146,7 @@ void BoundsPass::record_view(const PassInputs& in, const View& drawn, std::uint3
         else
             list.add(gl::DrawPulled{first * kQuadVertices, count * kQuadVertices});
         ++report.counts.draws;
+        ++report.counts.draw_commands;
         report.counts.triangles += (is_small(which) ? 1 : 2) * std::uint64_t{count};
     }
     list.add(gl::EndPass{});

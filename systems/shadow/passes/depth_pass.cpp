@@ -1,26 +1,14 @@
 #include "systems/shadow/passes/depth_pass.h"
 
 #include <algorithm>
-#include <cstring>
 
-#include "engine/math/projection.h"
 #include "shaders/bindings.h"
 #include "shaders/embedded.h"
-#include "systems/extract/instance_order.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/cpu_timer.h"
-#include "systems/shadow/passes/mesh_draw_ranges.h"
 
 namespace gnomon::shadow {
 namespace {
-
-bool has_masked(const GpuScene& gpu, std::uint32_t mesh) {
-    const auto& range = gpu.mesh(mesh);
-    for (std::uint32_t s = 0; s < range.submesh_count; ++s)
-        if (gpu.material(gpu.submesh(range.first_submesh + s).material).alpha_mode == assets::AlphaMode::mask)
-            return true;
-    return false;
-}
 
 gl::PipelineState depth_state(gl::ProgramHandle program) {
     return {program, gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off};
@@ -48,7 +36,10 @@ void copy_layer(const DrawnViews& drawn, std::size_t v, bool back, gl::CommandLi
 }  // namespace
 
 DepthPass::DepthPass(gl::Device& device)
-    : device_(device), items_(device, "shadow draw items"), views_(device, "shadow views") {}
+    : device_(device),
+      items_(device, "shadow draw items"),
+      records_(device, "shadow draw records"),
+      views_(device, "shadow views") {}
 
 DepthPass::~DepthPass() {
     for (const gl::ProgramHandle p : programs_) device_.destroy(p);
@@ -107,28 +98,19 @@ bool DepthPass::program(const DepthVariant& way, bool masked) {
 /// Returns why these casters cannot be drawn: a program failed, or the device has no room for their records.
 /// Reason::none: they can.
 Reason DepthPass::ready(const PassInputs& in, const DepthVariant& way, std::span<const std::uint32_t> casters) {
-    bool masked = false;
-    for (const std::uint32_t i : casters) {
-        if (in.scene.instances[i].gpu_slot >= in.gpu.capacity()) return Reason::buffer_failed;
-        masked = masked || (!way.sheets && has_masked(in.gpu, in.scene.instances[i].mesh));
-    }
+    const auto lacks_record = [&](std::uint32_t i) { return in.scene.instances[i].gpu_slot >= in.gpu.capacity(); };
+    const auto is_masked = [&](std::uint32_t i) { return in.gpu.depth_facts(in.scene.instances[i].mesh).masked; };
+    if (in.scene.gpu_slot_count > in.gpu.capacity() && std::any_of(casters.begin(), casters.end(), lacks_record))
+        return Reason::buffer_failed;
+    const bool masked = !way.sheets && in.gpu.any_masked() && std::any_of(casters.begin(), casters.end(), is_masked);
     if (way.sheets && !program({way.route, true, true, true}, false)) return Reason::depth_program_failed;
     return program(way, false) && (!masked || program(way, true)) ? Reason::none : Reason::depth_program_failed;
-}
-
-std::size_t DepthPass::item_count(const PassInputs& in, std::size_t v) const {
-    const auto casters = drawn_casters(in.drawn, v);
-    if (!in.drawn.maps[v].triangles) return casters.size();
-    std::size_t items = 0;
-    for (const std::uint32_t i : casters)
-        for_each_depth_run(in.gpu, in.scene.instances[i].mesh, [&](const DepthRun&) { ++items; });
-    return items;
 }
 
 void DepthPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     separate_.clear();
-    std::size_t items = 0, views = 0;
+    bool any = false;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         if (!in.drawn.is_drawn(v)) continue;
         const std::uint32_t light = in.drawn.view(v).light;
@@ -143,15 +125,12 @@ void DepthPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
             accounts.statuses[light].lose_maps(reason, in.drawn.lights[light].request.rays.used);
             continue;
         }
-        items += item_count(in, v);
-        ++views;
+        any = true;
     }
-    if (views == 0) return;
-    const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
-    // A layered pass has at least two views and takes room for six.
-    const std::size_t bytes = views * std::max<std::size_t>(stride, aligned(kFaces * sizeof(DepthViewRecord) / 2,
-                                                                            device_.info().uniform_alignment));
-    if (items_.reserve(std::max<std::size_t>(items, 1) * sizeof(DrawItem)) && views_.reserve(bytes)) return;
+    passes_.clear();
+    if (!any) return;
+    gather(in, accounts);
+    if (reserve_buffers()) return;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         const std::uint32_t light = in.drawn.view(v).light;
         if (in.drawn.is_drawn(v))
@@ -159,45 +138,15 @@ void DepthPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
     }
 }
 
-/// Returns the pipeline state for an opaque caster; one side of a solid is culled. From outside a solid, the nearest
-/// surface is always a front face, so that one side is enough. From inside, there are only back faces. With the light
-/// in the caster's bounds, it may be on either side, so that nothing is culled.
-gl::PipelineState DepthPass::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
-                                          const InstanceItem& item) const {
-    gl::PipelineState state = depth_state(programs_[which(variant_, false)]);
-    if (variant_.sheets) return state;
-    const CasterFaces faces = light.shadow.caster_faces;
-    const bool outside = is_parallel(view) || math::distance(item.bounds_ws, apex_ws_m(view)) > 0.0;
-    if (faces == CasterFaces::both || !outside || item.winding.folded || !gpu.mesh(item.mesh).solid) return state;
-    state.cull = faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
-    state.front_is_clockwise = item.winding.mirrored;
-    return state;
-}
-
-/// Draws instances of one mesh.
-void DepthPass::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::PipelineState& opaque,
-                         gl::CommandList& list, LightReport& report) {
-    std::uint32_t first_item = meshes.first_item;
-    for_each_depth_run(gpu, meshes.mesh, [&](const DepthRun& run) {
-        const std::uint32_t item = first_item;
-        first_item += meshes.items_per_draw;
-        if (run.mask && variant_.sheets) return;
-        if (run.mask) {
-            list.add(gl::BindTexture{bindings::kBaseColourUnit, run.mask->texture, run.mask->sampler});
-            list.add(gl::BindUniforms{bindings::kMaterialBlock, gpu.material_uniforms(), run.mask->uniform_offset,
-                                      sizeof(MaterialRecord)});
-        }
-        const gl::PipelineState state = run.mask ? depth_state(programs_[which(variant_, true)]) : opaque;
-        if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
-        pipeline_ = state;
-        const gl::BindMeshes read = meshes_of(gpu, run.engine);
-        if (!(bound_ == read)) list.add(read);
-        bound_ = read;
-        const std::int32_t base_vertex = run.engine ? run.engine->base_vertex : gpu.mesh(meshes.mesh).base_vertex;
-        list.add(gl::DrawMeshes{run.first_index, run.index_count, base_vertex, item, meshes.count});
-        ++report.counts.draws;
-        report.counts.triangles += std::uint64_t{run.index_count} / 3 * meshes.count;
-    });
+/// Makes room for what record() uploads. Without room for records of draws, each draw is a command of its own.
+bool DepthPass::reserve_buffers() {
+    has_records_ = wants_records_ && records_retry_.due(frame_);
+    if (has_records_ && !records_.reserve(draws_.records().size_bytes())) {
+        records_retry_.failed(frame_);
+        has_records_ = false;
+    }
+    return items_.reserve(std::max(draws_.items().size_bytes(), sizeof(DepthItem))) &&
+           views_.reserve(view_scratch_.size());
 }
 
 /// Opens the pass on cleared faces, or on those of static casters alone. A layered clear would clear every face, so it
@@ -232,6 +181,7 @@ void DepthPass::list_engine_draws(const PassInputs& in, const Pass& pass, LightR
             {i, view.light, map.target, map.size_px, first, view.clip_from_anchor, view.pose.anchor_ws_m});
         first = false;
         ++report.counts.draws;
+        ++report.counts.draw_commands;
     }
 }
 
@@ -259,30 +209,46 @@ gl::BindMeshes DepthPass::meshes_of(const GpuScene& gpu, const EngineMesh* engin
     return {gpu.vertices(), gpu.indices(), items_.handle()};
 }
 
-void DepthPass::draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, const Group& group,
+void DepthPass::draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, IndexRange batches,
                      gl::CommandList& list, LightReport& report) {
-    const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
-    const ShadowView& view = in.drawn.view(pass.first);
-    variant_ = way;
-    std::uint32_t next_item = group.first_item;
-    const LightItem& light = in.scene.lights[view.light];
-    const auto state_of = [&](std::uint32_t i) {
-        return opaque_state(in.gpu, view, light, in.scene.instances[casters[i]]);
-    };
-    for_each_mesh_run(in.scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t from = first, to = first; from < first + count; from = to) {
-            const gl::PipelineState state = state_of(from);
-            while (to < first + count && state_of(to) == state) ++to;
-            draw_run(in.gpu, {mesh, next_item + from - first, to - from, variant_.triangles ? count : 0}, state, list,
-                     report);
+    const LightItem& light = in.scene.lights[in.drawn.view(pass.first).light];
+    const bool together = has_records_ && light.tuning.maps.multi_draw;
+    for (const DepthDraws::Batch& batch : draws_.batches(batches)) {
+        set_state(in, pass, way, batch, list);
+        const auto records = draws_.records().subspan(batch.draws.first, batch.draws.count);
+        if (together && records.size() > 1) {
+            list.add(gl::DrawMeshesIndirect{records_.handle(), batch.draws.first, batch.draws.count, batch.end_index,
+                                            batch.end_item});
+            ++report.counts.draw_commands;
+        } else {
+            for (const gl::MeshDrawRecord& r : records)
+                list.add(gl::DrawMeshes{r.first_index, r.index_count, r.base_vertex, r.first_item, r.item_count});
+            report.counts.draw_commands += batch.draws.count;
         }
-        std::uint32_t draws = 1;
-        if (variant_.triangles) {
-            draws = 0;
-            for_each_depth_run(in.gpu, mesh, [&](const DepthRun&) { ++draws; });
-        }
-        next_item += draws * count;
-    });
+        report.counts.draws += batch.draws.count;
+        report.counts.triangles += batch.triangles;
+    }
+}
+
+/// Sets what the draws of a batch need, where it differs from what is set.
+void DepthPass::set_state(const PassInputs& in, const Pass& pass, const DepthVariant& way,
+                          const DepthDraws::Batch& batch, gl::CommandList& list) {
+    if (batch.mask) {
+        list.add(gl::BindTexture{bindings::kBaseColourUnit, batch.mask->texture, batch.mask->sampler});
+        list.add(gl::BindUniforms{bindings::kMaterialBlock, in.gpu.material_uniforms(), batch.mask->uniform_offset,
+                                  sizeof(MaterialRecord)});
+    }
+    gl::PipelineState state = depth_state(programs_[which(way, batch.mask != nullptr)]);
+    if (batch.faces != DrawnFaces::both) {
+        const LightItem& light = in.scene.lights[in.drawn.view(pass.first).light];
+        state.cull = light.shadow.caster_faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
+        state.front_is_clockwise = batch.faces == DrawnFaces::one_side_mirrored;
+    }
+    if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
+    pipeline_ = state;
+    const gl::BindMeshes read = meshes_of(in.gpu, batch.engine);
+    if (!(bound_ == read)) list.add(read);
+    bound_ = read;
 }
 
 /// Draws the same casters once more, without the triangles that the first map shows.
@@ -299,11 +265,13 @@ void DepthPass::peel(const PassInputs& in, const Pass& pass, gl::CommandList& li
 }
 
 void DepthPass::record(const PassInputs& in, const PassOutputs& out) {
-    gather(in);
     engine_draws_.clear();
+    const auto lost = [&](const Pass& pass) { return !in.drawn.is_drawn(pass.first); };
+    std::erase_if(passes_, lost);  // a later recorder had no room for what belongs to the maps
     if (passes_.empty()) return;
     gl::CommandList& list = out.list;
-    list.update(items_.handle(), 0, std::span<const DrawItem>(item_scratch_));
+    list.update(items_.handle(), 0, draws_.items());
+    if (has_records_) list.update(records_.handle(), 0, draws_.records());
     list.update(views_.handle(), 0, std::span<const std::byte>(view_scratch_));
     for (const Pass& pass : passes_) {
         const std::uint32_t light = in.drawn.view(pass.first).light;

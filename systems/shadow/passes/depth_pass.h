@@ -1,6 +1,5 @@
 #pragma once
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "engine/gl/device.h"
@@ -9,6 +8,7 @@
 #include "systems/shadow/frame/engine_draw.h"
 #include "systems/shadow/frame/light_accounts.h"
 #include "systems/shadow/frame/pass_inputs.h"
+#include "systems/shadow/passes/depth_draws.h"
 
 namespace gnomon::shadow {
 
@@ -20,8 +20,8 @@ public:
     DepthPass(const DepthPass&) = delete;
     DepthPass& operator=(const DepthPass&) = delete;
 
-    /// Makes programs and buffers for the views that are drawn. A light with views that cannot be drawn loses its maps.
-    /// Call before record().
+    /// Makes programs and buffers for the views that are drawn, and gathers their draws. A light with views that cannot
+    /// be drawn loses its maps. Call before record(), with the same inputs.
     void prepare(const PassInputs& in, const LightAccounts& accounts);
 
     /// Records the depth passes in order (stage 7, first half). There is one pass per drawn view, or one for all views
@@ -32,10 +32,6 @@ public:
     std::span<const EngineDraw> engine_draws() const { return engine_draws_; }
 
 private:
-    struct DrawItem {
-        std::uint32_t instance;
-        std::uint32_t place;  // layer, and above its three bits the first triangle of the draw
-    };
     /// Variant of the depth program that a pass uses; each exists for opaque and for masked casters.
     struct DepthVariant {
         CubeRoute route = CubeRoute::six_passes;
@@ -44,34 +40,24 @@ private:
         bool peel = false;       // second depths: triangles behind the first ones
         bool coloured = false;   // the scene's vertices have colours, with an alpha that counts in masks
     };
-    /// Static casters, or moving ones: never both in one draw.
-    struct Group {
-        IndexRange casters;            // into caster_scratch_ and layer_scratch_
-        std::uint32_t first_item = 0;  // an item per caster; with triangles, one per caster and draw of its mesh
-    };
-    /// Views [first, end) of one light that one pass draws (if they are drawn), and what they draw.
+    /// Views [first, end) of one light that one pass draws (if they are drawn), and what they draw: static casters
+    /// before moving ones.
     struct Pass {
         std::size_t first = 0, end = 0;
         bool layered = false;
         std::uint32_t views = 0, uniform_offset = 0;
-        Group still, moving;
-    };
-    /// Instances of one mesh that are drawn alike.
-    struct MeshRun {
-        std::uint32_t mesh, first_item, count;
-        std::uint32_t items_per_draw;  // between the items of one draw and those of the next
+        IndexRange still, moving;  // batches of draws_; without triangles in the map and a copy, still has all
     };
     static std::size_t which(const DepthVariant& way, bool masked);
     DepthVariant variant_of(const PassInputs& in, std::size_t v) const;
     bool is_layered(const PassInputs& in, std::size_t v) const;
     bool program(const DepthVariant& way, bool masked);
     Reason ready(const PassInputs& in, const DepthVariant& way, std::span<const std::uint32_t> casters);
-    std::size_t item_count(const PassInputs& in, std::size_t v) const;
-    void gather(const PassInputs& in);
-    void append_items(const PassInputs& in, bool triangles, Group& group);
+    void gather(const PassInputs& in, const LightAccounts& accounts);
+    void gather_casters(const PassInputs& in, Pass& pass);
     void gather_uniforms(const DrawnViews& drawn, Pass& pass);
-    Group gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters);
-    Group gather_layers(const PassInputs& in, const Pass& pass, bool moving);
+    DepthDraws::Casters merge_layers(const PassInputs& in, const Pass& pass, bool moving);
+    bool reserve_buffers();
     void append_uniforms(const ShadowView& view, std::size_t at);
     void begin(const PassInputs& in, const Pass& pass, gl::CommandList& list);
     void list_engine_draws(const PassInputs& in, const Pass& pass, LightReport& report);
@@ -79,20 +65,14 @@ private:
     gl::BindMeshes meshes_of(const GpuScene& gpu, const EngineMesh* engine) const;
     void begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
                          gl::CommandList& list);
-    void draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, const Group& group,
+    void draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, IndexRange batches,
               gl::CommandList& list, LightReport& report);
     void peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report);
-    gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
-                                   const InstanceItem& item) const;
-    void draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::PipelineState& opaque, gl::CommandList& list,
-                  LightReport& report);
+    void set_state(const PassInputs& in, const Pass& pass, const DepthVariant& way, const DepthDraws::Batch& batch,
+                   gl::CommandList& list);
 
     /// Room for the uniforms of all faces of a cube, by face.
     static constexpr std::size_t kFaces = 6;
-    /// Bits of DrawItem::place for the layer.
-    static constexpr std::uint32_t kLayerBits = 3;
-    /// First triangle of draws with unknown triangles; twin in shaders/shadow/passes/depth/shown_triangle.glsl.
-    static constexpr std::uint32_t kNoTriangle = ~0u >> kLayerBits;
 
     gl::Device& device_;
     /// Number of programs. Plain ones: three routes, opaque or masked, with or without triangles, and the peeling one.
@@ -101,18 +81,18 @@ private:
     gl::ProgramHandle programs_[kPrograms]{};
     Retry retries_[kPrograms];
     std::uint64_t frame_ = 0;
-    GrowingBuffer items_, views_;
+    GrowingBuffer items_, records_, views_;
+    Retry records_retry_;
+    bool wants_records_ = false;           // one command may make several of this frame's draws
+    bool has_records_ = false;             // their records are to be uploaded
     std::vector<std::uint32_t> separate_;  // lights without a layered program, by rising index
     std::vector<Pass> passes_;
-    std::vector<std::uint32_t> caster_scratch_;  // indices into the scene's instances, one per item
-    std::vector<DrawItem> item_scratch_;
-    std::vector<std::uint32_t> layer_scratch_;                           // one per caster_scratch_
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pair_scratch_;  // instance, layer
+    DepthDraws draws_;
+    std::vector<std::uint32_t> caster_scratch_, layer_scratch_;  // one each per caster of a layered pass
     std::vector<std::byte> view_scratch_;
     std::vector<EngineDraw> engine_draws_;
     gl::PipelineState pipeline_;  // state of the pass being recorded
     gl::BindMeshes bound_;        // meshes bound in that pass
-    DepthVariant variant_;        // variant of that pass
 };
 
 }  // namespace gnomon::shadow

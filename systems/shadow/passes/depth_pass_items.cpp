@@ -1,20 +1,28 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "engine/math/projection.h"
-#include "systems/extract/instance_order.h"
+#include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/passes/depth_pass.h"
-#include "systems/shadow/passes/mesh_draw_ranges.h"
 
 /// Gathering of the draws of each depth pass.
 namespace gnomon::shadow {
 namespace {
 
-/// Orders casters by mesh, then mirrored ones last, then by index. Few draws then need a change of culling.
-bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) {
-    const InstanceItem &first = scene.instances[a], &second = scene.instances[b];
-    if (first.mesh != second.mesh) return first.mesh < second.mesh;
-    return first.winding.mirrored != second.winding.mirrored ? second.winding.mirrored : a < b;
+/// Returns how the draws of a view that has a map are gathered.
+DepthDraws::Way way_of(const PassInputs& in, std::size_t v) {
+    const ShadowView& view = in.drawn.view(v);
+    const bool culls = in.scene.lights[view.light].shadow.caster_faces != CasterFaces::both;
+    return {static_cast<bool>(in.drawn.maps[v].triangles), static_cast<bool>(in.drawn.maps[v].sheets.second), culls,
+            is_parallel(view), apex_ws_m(view)};
+}
+
+std::span<const std::uint32_t> casters_of(const DrawnViews& drawn, std::size_t v, bool moving) {
+    const ShadowView& view = drawn.view(v);
+    if (moving) return drawn.fitted.moving_casters_of(view);
+    if (drawn.updates[v].copy.use == StaticCopyUse::copy) return {};
+    return drawn.fitted.static_casters_of(view);
 }
 
 }  // namespace
@@ -26,58 +34,51 @@ void DepthPass::append_uniforms(const ShadowView& view, std::size_t at) {
     std::memcpy(view_scratch_.data() + at, &record, sizeof record);
 }
 
-/// Gathers the casters of one view's group.
-DepthPass::Group DepthPass::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
-    const std::size_t first = caster_scratch_.size();
-    caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
-    const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].winding.mirrored; };
-    if (std::any_of(casters.begin(), casters.end(), mirrored))
-        std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });
-    layer_scratch_.resize(caster_scratch_.size(), 0);
-    return {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(casters.size())}, 0};
-}
-
-/// Gathers the casters of a group over all views, sorted by mesh: one draw per mesh draws it into every face.
-DepthPass::Group DepthPass::gather_layers(const PassInputs& in, const Pass& pass, bool moving) {
-    pair_scratch_.clear();
-    for (std::size_t v = pass.first; v < pass.end; ++v) {
-        if (!in.drawn.is_drawn(v)) continue;
-        const ShadowView& view = in.drawn.view(v);
-        const FittedViews& fitted = in.drawn.fitted;
-        for (const std::uint32_t i : moving ? fitted.moving_casters_of(view) : fitted.static_casters_of(view))
-            pair_scratch_.emplace_back(i, view.layer);
-    }
-    std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
-        return a.first != b.first ? drawn_before(in.scene, a.first, b.first) : a.second < b.second;
-    });
-    const IndexRange range{static_cast<std::uint32_t>(caster_scratch_.size()),
-                           static_cast<std::uint32_t>(pair_scratch_.size())};
-    for (const auto& [item, layer] : pair_scratch_) {
-        caster_scratch_.push_back(item);
-        layer_scratch_.push_back(layer);
-    }
-    return {range, 0};
-}
-
-/// Appends the items of a group with gathered casters, in the order in which draw() reads them.
-void DepthPass::append_items(const PassInputs& in, bool triangles, Group& group) {
-    group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
-    const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
-    const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
-        item_scratch_.push_back({in.scene.instances[casters[i]].gpu_slot,
-                                 layer_scratch_[group.casters.first + i] | first_triangle << kLayerBits});
+/// Merges the casters of all views of a pass into one list. It is sorted by mesh and index, as they are, so that one
+/// draw per mesh serves every face. Valid until the next call.
+DepthDraws::Casters DepthPass::merge_layers(const PassInputs& in, const Pass& pass, bool moving) {
+    struct Rest {
+        std::span<const std::uint32_t> casters;  // not yet merged
+        std::uint32_t layer = 0;
     };
-    if (!triangles) {
-        for (std::uint32_t i = 0; i < casters.size(); ++i) append(i, 0);
-        return;
+    std::array<Rest, kFaces> rests;
+    std::size_t count = 0;
+    for (std::size_t v = pass.first; v < pass.end && count < kFaces; ++v)
+        if (in.drawn.is_drawn(v)) rests[count++] = {casters_of(in.drawn, v, moving), in.drawn.view(v).layer};
+    caster_scratch_.clear();
+    layer_scratch_.clear();
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t first = in.scene.instances[a].mesh, second = in.scene.instances[b].mesh;
+        return first != second ? first < second : a < b;
+    };
+    for (;;) {
+        const Rest* next = nullptr;
+        for (std::size_t i = 0; i < count; ++i)
+            if (!rests[i].casters.empty() && (!next || before(rests[i].casters.front(), next->casters.front())))
+                next = &rests[i];
+        if (!next) return {caster_scratch_, layer_scratch_};
+        const std::uint32_t caster = next->casters.front();
+        for (std::size_t i = 0; i < count; ++i) {
+            if (rests[i].casters.empty() || rests[i].casters.front() != caster) continue;
+            caster_scratch_.push_back(caster);
+            layer_scratch_.push_back(rests[i].layer);
+            rests[i].casters = rests[i].casters.subspan(1);
+        }
     }
-    for_each_mesh_run(in.scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
-        for_each_depth_run(in.gpu, mesh, [&](const DepthRun& run) {
-            for (std::uint32_t i = first; i < first + count; ++i)
-                append(i, run.engine ? kNoTriangle : run.first_index / 3);
-        });
-    });
+}
+
+/// Gathers the draws of a pass. Where maps have triangles, static casters come first, as in a copy of them, because the
+/// first draw wins at equal depths.
+void DepthPass::gather_casters(const PassInputs& in, Pass& pass) {
+    const DepthDraws::Way way = way_of(in, pass.first);
+    const bool apart = way.triangles || in.drawn.updates[pass.first].copy.use != StaticCopyUse::none;
+    for (const bool moving : {false, true}) {
+        draws_.add(in.scene, in.gpu, way,
+                   pass.layered ? merge_layers(in, pass, moving)
+                                : DepthDraws::Casters{casters_of(in.drawn, pass.first, moving), {}});
+        if (!moving && apart) pass.still = draws_.end_group();
+    }
+    (apart ? pass.moving : pass.still) = draws_.end_group();
 }
 
 /// Appends the matrices of a pass's views; a layered pass has them by face.
@@ -97,30 +98,24 @@ void DepthPass::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
 }
 
 /// Gathers what this frame draws, pass by pass.
-void DepthPass::gather(const PassInputs& in) {
-    passes_.clear();
-    layer_scratch_.clear();
-    caster_scratch_.clear();
-    item_scratch_.clear();
+void DepthPass::gather(const PassInputs& in, const LightAccounts& accounts) {
+    draws_.clear();
+    wants_records_ = false;
     view_scratch_.clear();
-    const FittedViews& fitted = in.drawn.fitted;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         if (!in.drawn.is_drawn(v)) continue;
-        const ShadowView& view = in.drawn.view(v);
+        const std::uint32_t light = in.drawn.view(v).light;
+        const LightTimer time(accounts.cpu_us, light);
         Pass pass{v, v + 1, is_layered(in, v), 1, 0, {}, {}};
-        if (pass.layered) pass.end = fitted.lights[view.light].views.end();
+        if (pass.layered) pass.end = in.drawn.fitted.lights[light].views.end();
         gather_uniforms(in.drawn, pass);
-        if (pass.layered) {
-            pass.still = gather_layers(in, pass, false);
-            pass.moving = gather_layers(in, pass, true);
-        } else {
-            if (in.drawn.updates[v].copy.use != StaticCopyUse::copy)
-                pass.still = gather_view(in.scene, fitted.static_casters_of(view));
-            pass.moving = gather_view(in.scene, fitted.moving_casters_of(view));
+        gather_casters(in, pass);
+        const auto is_several = [](const DepthDraws::Batch& batch) { return batch.draws.count > 1; };
+        for (const IndexRange group : {pass.still, pass.moving}) {
+            const auto batches = draws_.batches(group);
+            wants_records_ |= in.scene.lights[light].tuning.maps.multi_draw &&
+                              std::any_of(batches.begin(), batches.end(), is_several);
         }
-        const bool triangles = static_cast<bool>(in.drawn.maps[v].triangles);
-        append_items(in, triangles, pass.still);
-        append_items(in, triangles, pass.moving);
         passes_.push_back(pass);
         v = pass.end - 1;
     }

@@ -158,6 +158,7 @@ void TintPass::draw(const PassInputs& in, const View& view, const gl::PipelineSt
         list.add(
             gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
         ++report.counts.draws;
+        ++report.counts.draw_commands;
         report.counts.triangles += std::uint64_t{draw.index_count} / 3 * draw.item_count;
     }
 }

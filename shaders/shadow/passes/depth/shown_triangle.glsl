@@ -3,7 +3,7 @@
 layout(location = kItemVarying) flat in uvec2 fragment_item;   // instance; face in the lowest three bits, first triangle of
                                                                // the draw above
 
-const uint kUnknownTriangles = 0xffffffffu >> 3;   // twin: DepthPass::kNoTriangle
+const uint kUnknownTriangles = 0xffffffffu >> 3;   // twin: DepthDraws::kNoTriangle
 uvec2 shown_triangle() {
     uint first = fragment_item.y >> 3;
     return uvec2(fragment_item.x, first == kUnknownTriangles ? 0xffffffffu : first + uint(gl_PrimitiveID));

@@ -3,7 +3,7 @@
 
 #include "systems/extract/gpu_scene.h"
 
-namespace gnomon::shadow {
+namespace gnomon {
 
 /// Indices that one draw of a depth pass reads.
 struct DepthRun {
@@ -40,4 +40,4 @@ void for_each_depth_run(const GpuScene& gpu, std::uint32_t mesh, Use&& use) {
     flush();
 }
 
-}  // namespace gnomon::shadow
+}  // namespace gnomon
