@@ -16,6 +16,7 @@
 #include "bench/cost_model/calibrate.h"
 #include "bench/culling/culling.h"
 #include "bench/culling/culling_efficiency.h"
+#include "bench/draws/draw_costs.h"
 #include "bench/embed/embed_costs.h"
 #include "bench/embed/host_engine.h"
 #include "bench/fit_drawings/fit_drawings.h"
@@ -279,6 +280,14 @@ int run_budget_speeds(const Arguments& arguments) {
     return 0;
 }
 
+int run_draws(const Arguments& arguments) {
+    const auto costs = measure_draw_costs(arguments.draws);
+    if (!costs) return fail(costs.error());
+    if (auto error = put_out(arguments, draw_costs_markdown(costs.value()), draw_costs_json(costs.value())))
+        return fail(*error);
+    return 0;
+}
+
 int run_set_shares(const Arguments& arguments) { return put_table(set_shares(arguments.stage)); }
 
 int run_checks(const Arguments& arguments) {
@@ -315,6 +324,8 @@ constexpr Command kCommands[] = {
     {"culling", "what finding receivers and casters and fitting to them costs", add_culling, run_culling_benchmarks},
     {"demand", "what shadows cost by the number of lights, economy on and off", add_demand, run_demand},
     {"budget", "what a unit of each kind of work takes that budgets reckon with", add_budget, run_budget_speeds},
+    {"draws", "what depth passes of many meshes cost the processor, a command for each and one for all", add_draws,
+     run_draws},
     {"redraws", "how many maps are drawn while a camera walks or a thing moves", add_redraws, run_redraws},
     {"sets", "how many casters each light keeps, and how many of those in vain", add_common, run_set_shares},
     {"queries", "visibility queries on the CPU: how many per second, and their trees", add_queries, run_queries},

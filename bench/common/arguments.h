@@ -7,6 +7,7 @@
 #include "bench/check/check_command.h"
 #include "bench/common/stage.h"
 #include "bench/cost_model/calibrate.h"
+#include "bench/draws/draw_costs.h"
 #include "bench/embed/embed_costs.h"
 #include "bench/flicker/edge_flicker.h"
 #include "bench/flicker/flicker.h"
@@ -31,6 +32,7 @@ struct Arguments {
     std::string plot, drawings, filters, rows, markdown;
     DemandOptions demand;
     SpeedOptions speeds;
+    DrawCostOptions draws;
     QueriesOptions queries;
     EmbedOptions embed;
     CheckCommand check;
@@ -44,8 +46,8 @@ struct Arguments {
 /// A command's options.
 using AddOptions = void(CLI::App& command, Arguments& arguments);
 AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
-    add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures, add_judge,
-    add_edges;
+    add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures, add_judge, add_edges,
+    add_draws;
 
 /// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "time".
 std::optional<Error> complete(Arguments& arguments);

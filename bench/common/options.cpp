@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kMostAreaSide = 64;
 constexpr std::uint32_t kMaxRepeats = 100000;
+constexpr std::uint32_t kMostDrawnCasters = 1000000, kMostDrawnViews = 64;
 constexpr std::uint32_t kMostLights = 100000;
 constexpr std::uint32_t kMaxPoints = 10000000;
 constexpr unsigned kMostThreads = 1024;
@@ -183,6 +184,20 @@ void add_budget(CLI::App& command, Arguments& arguments) {
         ->check(CLI::Range(1u, kMaxRepeats))
         ->capture_default_str();
     add_markdown(command, arguments, "page whose text between <!-- speeds --> and <!-- end of speeds --> is replaced");
+}
+
+void add_draws(CLI::App& command, Arguments& arguments) {
+    DrawCostOptions& options = arguments.draws;
+    command.add_option("--casters", options.casters, "casters, each a mesh of its own")
+        ->check(CLI::Range(1u, kMostDrawnCasters))
+        ->capture_default_str();
+    command.add_option("--views", options.views, "views, each of which shows all casters")
+        ->check(CLI::Range(1u, kMostDrawnViews))
+        ->capture_default_str();
+    command.add_option("--repeat", options.frames, "frames of each row that are timed")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    command.add_option("--json", arguments.json, "write all figures to this file");
 }
 
 void add_redraws(CLI::App& command, Arguments& arguments) {

@@ -6,6 +6,7 @@ if(GNOMON_SAMPLE)
     caster_faces_gl_test.cpp
     creases_gl_test.cpp
     far_lamps_gl_test.cpp
+    few_draws_gl_test.cpp
     fine_meshes_gl_test.cpp
     flat_casters_gl_test.cpp
     lamps_on_planes_gl_test.cpp

@@ -145,7 +145,7 @@ private:
     }
 
     std::vector<Map> maps_;
-    std::vector<gl::DrawMeshes> draws_;            // of one command
+    std::vector<gl::DrawMeshes> draws_;            // draws of one command
     std::vector<gl::Timing> timings_;              // of the last submission
     std::deque<std::vector<gl::Timing>> answers_;  // not yet taken
 };
