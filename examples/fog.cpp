@@ -1,6 +1,6 @@
 // Beams of lamps in fog: a volume shader that looks shadows up in the air.
 //
-// The fog is a receiver without a surface: a box that receives and does not cast, so that maps hold what darkens it.
+// The fog is a receiver without a surface: a box of air, so that maps hold what darkens it.
 #include <epoxy/gl.h>
 #include <gnomon/shadows.h>
 #include <gnomon/window.h>
@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     for (const glm::dmat4& place : places) shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = place});
     // [air]
     const glm::dmat4 volume = glm::scale(glm::translate(glm::dmat4(1.0), {0.0, 2.0, 2.0}), {14.0, 4.0, 12.0});
-    shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = volume, .casts = false});
+    shadows.add_air({.world_from_box = volume});
     // [air]
     glm::vec3 lamps[kLamps], tints[kLamps] = {{1.0f, 0.8f, 0.5f}, {0.5f, 0.8f, 1.0f}, {0.9f, 0.5f, 0.8f}};
     for (int i = 0; i < kLamps; ++i) {

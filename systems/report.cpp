@@ -206,6 +206,8 @@ const char* reason_code(DropReason reason) {
             return "meshes_full";
         case DropReason::buffer_lost:
             return "buffer_lost";
+        case DropReason::absurd_fog:
+            return "absurd_fog";
     }
     return "unknown";
 }

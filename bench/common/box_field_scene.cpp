@@ -55,6 +55,7 @@ shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages
             .receivers = light.receivers(),
             .casters = light.casters(),
             .receiver_points_ws = light.receiver_points_ws(),
+            .error_points_ws = light.error_points_ws(),
             .hulls = light.hulls(),
             .frame_points_ws = sets.receiver_points_ws,
             .reach_texel = request.map.filtering.widest_texel,

@@ -82,6 +82,23 @@ struct MeshRef {
     bool shadow_catcher = false;
 };
 
+/// Box of fog around the entity's place: it receives shadows as a volume, scatters the lights' light toward cameras,
+/// and dims what is behind it. Its beams of light and shadow follow from the lights' maps, which hold what darkens any
+/// part of it that a camera sees. Single scattering, the same everywhere in the box. An entity with a MeshRef as well
+/// has no fog.
+struct FogVolume {
+    glm::dvec3 half_extent_m{5.0};  // from its middle to its sides along own axes, before Transform::scale; above 0
+    /// Share of light that it takes per metre, 0 to 1000: by scattering and absorption. 0: it shows nothing, and only
+    /// receives shadows, for particles of your own. Morning mist: 0.02; thick smoke: 1. The default is haze.
+    float extinction_per_m = 0.05f;
+    glm::vec3 albedo{0.9f};  // part of what it takes that it scatters, 0 to 1: white droplets 1; smoke 0.5
+    /// Mean cosine of scattering (Henyey and Greenstein 1941), -0.95 to 0.95. 0: alike in all directions. Above 0: on
+    /// ahead, so that lights glow in the view toward them.
+    float anisotropy = 0.3f;
+    bool receives_shadow = true;                    // false: lights shine through casters in it
+    ShadowLayers shadow_layers = kAllShadowLayers;  // lights of other layers shine unoccluded in it
+};
+
 /// Makes an entity with a MeshRef cast shadows.
 struct ShadowCaster {
     bool enabled = true;                     // false: casts nothing, as without the component

@@ -121,6 +121,9 @@ struct Box {
     bool visible = true;                      // false: no camera draws it; it may cast all the same
     /// Lights that share no bit with these: it casts, or receives, nothing under them.
     std::uint8_t cast_layers = kAllLayers, receive_layers = kAllLayers;
+    /// Fog or particles: it has no surface, does not cast, and receives anywhere in the box. Errors are stated from an
+    /// eighth of the way to its farthest point that a camera sees: a camera may stand in it.
+    bool air = false;
 };
 
 /// Everything that a frame's shadows follow from. The spans are read during the call only.

@@ -192,6 +192,7 @@ enum class DropReason : std::uint8_t {
     instances_full,        // the device has no record for it: neither drawn nor casting
     meshes_full,           // the device has no room for its mesh: neither drawn nor casting
     buffer_lost,           // a buffer of its mesh is the engine's, and was deleted or made smaller
+    absurd_fog,            // a number of its FogVolume is out of range, or it has a MeshRef as well
 };
 /// Returns the code's name, as reports and files spell it.
 const char* reason_code(DropReason reason);

@@ -33,7 +33,7 @@ struct Handle {
 };
 /// Handle of a mesh.
 using MeshId = Handle<struct MeshKind>;
-/// Handle of a caster or a drawable.
+/// Handle of a caster, a drawable or air.
 using CasterId = Handle<struct CasterKind>;
 /// Handle of a light.
 using LightId = Handle<struct ShadowLightKind>;
@@ -117,6 +117,18 @@ struct DrawableDesc {
     bool casts = true;     // false: it only receives
     bool receives = true;  // false: no map is fitted to it
     ShadowLayers cast_layers = kAllShadowLayers;     // as CasterDesc::cast_layers
+    ShadowLayers receive_layers = kAllShadowLayers;  // as CasterDesc::receive_layers
+};
+
+/// Box of air: a receiver without a surface, for fog and particles. Maps hold what darkens any place in the part of it
+/// that a camera sees. Such places are looked up by gnomon_visibility(light, position) of lookup_glsl(); a mask shows
+/// none of them. Draws nothing and casts nothing.
+///
+/// Places have no slope: one reads the map as if a plane through it faced the light. LightShadow::max_error_px holds
+/// from an eighth of the way to the box's farthest point that the camera sees. Nearer air is looked up in the same
+/// texels. Cost: as a mesh with the same bounds. Fit boxes closely: whatever is in one has to be in the maps.
+struct AirDesc {
+    glm::dmat4 world_from_box{1.0};  // places the cube from -1/2 to 1/2; affine; its bounds in the world count
     ShadowLayers receive_layers = kAllShadowLayers;  // as CasterDesc::receive_layers
 };
 
@@ -300,7 +312,7 @@ public:
     void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
     /// Replaces all fields of a caster. What is equal costs nothing.
     void set_caster(CasterId caster, const CasterDesc& desc);
-    /// Removes a caster or a drawable.
+    /// Removes a caster, a drawable or air.
     void remove(CasterId caster);
 
     /// Adds a caster that the engine draws. redraw() and remove() take it; to change other fields, remove it and add
@@ -312,6 +324,11 @@ public:
     /// Infinity: unknown.
     void redraw(CasterId drawable, const Bounds& bounds,
                 double moves_at_most_m = std::numeric_limits<double>::infinity());
+
+    /// Adds a box of air. Where its bounds are not finite, or it has no area, it is in dropped().
+    CasterId add_air(const AirDesc& air);
+    /// Moves or changes a box of air. What is equal costs nothing.
+    void set_air(CasterId air, const AirDesc& desc);
 
     /// Adds a light. Its shadow is in the next render().
     LightId add_light(const LightDesc& light);
@@ -338,7 +355,8 @@ public:
     /// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the share of the light that arrives. light:
     ///   lookup_index(). position: from the view's camera, in the world's axes, metres. With a negative near plane of
     ///   an orthographic view: from the middle of that plane. normal: geometric, unit, facing the viewer
-    /// - `float gnomon_visibility(int light, vec3 position)`: the same for a place in the air: fog, particles
+    /// - `float gnomon_visibility(int light, vec3 position)`: the same for a place in the air: fog, particles; declare
+    ///   it (AirDesc)
     /// - `bool gnomon_takes_shadow(int light, int layers)`: the light's shadows fall on receivers of these layers
     /// - `gnomon_uniform_visibility(…)`: faster, where all invocations look up the same light at once.
     /// Errors: "lookup.off" (ShadowsOptions::lookup is empty), "lookup.bindings", "lookup.rows".

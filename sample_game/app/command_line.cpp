@@ -5,6 +5,7 @@
 
 #include "sample_game/app/debug_option.h"
 #include "sample_game/gui/keys.h"
+#include "sample_game/support/scene/mist.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/parse_number.h"
@@ -23,7 +24,7 @@ constexpr std::uint32_t kWindowSamples = 64;
 
 /// Arguments as typed, before they are parsed.
 struct Typed {
-    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, samples, smooth, shadow_bytes,
+    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, mist, samples, smooth, shadow_bytes,
         shadow_ms, shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false, transparent = false;
@@ -44,6 +45,8 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--frames", typed.frames, "N: frames to run, then exit");
     app.add_option("--time", typed.time, "SECONDS: scene time of the last frame");
     app.add_option("--exposure", typed.exposure, "EV|auto (default: auto)");
+    app.add_option("--mist", typed.mist,
+                   "X: mist in the lights, which takes this share of light per metre, 0 to 10 (default: 0, none)");
     app.add_option(
         "--samples", typed.samples,
         "N: samples per pixel of a picture that stands still (default: 64 in a window without --frames, else 1)");
@@ -110,6 +113,12 @@ std::optional<Error> read_numbers(const Typed& typed, const CLI::App& app, Comma
         if (!exposure || !(std::abs(*exposure) <= kMaxExposure_ev))
             return wrong("--exposure: '" + typed.exposure + "' is neither auto nor an EV within +-64");
         line.exposure_ev = static_cast<float>(*exposure);
+    }
+    if (app.count("--mist") > 0) {
+        const auto mist = read_number(typed.mist);
+        if (!mist || !(*mist >= 0.0 && *mist <= static_cast<double>(kMostMist_per_m)))
+            return wrong("--mist: '" + typed.mist + "' is not a share of light per metre of 0 to 10");
+        line.mist_per_m = static_cast<float>(*mist);
     }
     if (app.count("--samples") > 0) {
         const std::uint64_t samples = read_count(typed.samples).value_or(0);

@@ -24,6 +24,7 @@ struct CommandLine {
     std::optional<std::uint64_t> frames;   // > 0; empty: 1 headless, endless in a window
     std::optional<double> time_s;          // scene time of the last frame
     std::optional<float> exposure_ev;      // empty: automatic
+    float mist_per_m = 0.0f;               // share of light that mist takes per metre; 0: none
     shadow::ShadowBudget shadow_budget;    // what shadows may take
     std::optional<std::uint32_t> samples;  // per pixel, > 0; empty: see still_samples()
     bool transparent = false;              // nothing is drawn behind all surfaces

@@ -5,6 +5,7 @@
 const int kCameraBlock = 0;
 const int kLightBlock = 1;
 const int kMaterialBlock = 2;
+const int kFogBlock = 2;          // passes over the picture have no material
 const int kAmbientBlock = 3;
 const int kExposureBlock = 4;
 const int kShownScaleBlock = 5;

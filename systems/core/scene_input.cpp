@@ -114,6 +114,7 @@ void SceneInput::take_boxes(std::span<const Box> boxes) {
     const bool rebuilt = items.size() != boxes.size();
     items.resize(boxes.size());
     snapshot_.changed_instances.clear();
+    snapshot_.air.any = false;
     unusable_.boxes = 0;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         const Box& box = boxes[i];
@@ -124,7 +125,9 @@ void SceneInput::take_boxes(std::span<const Box> boxes) {
         if (!(bounds == item.bounds_ws)) snapshot_.changed_instances.push_back(i);
         item.gpu_slot = i;
         item.bounds_ws = bounds;
-        item.casts = usable && box.casts;
+        item.mesh = box.air ? kNoMesh : 0;
+        snapshot_.air.any |= usable && box.air;
+        item.casts = usable && box.casts && !box.air;
         item.receives = usable && box.receives;
         item.visible = usable && box.visible;
         item.cast_layers = box.cast_layers;

@@ -48,6 +48,7 @@ void LayeredScene::update(const SceneSnapshot& whole, std::span<const ConsumerIt
     scene_.gpu_slot_count = whole.gpu_slot_count;
     scene_.any_drawable = whole.any_drawable;
     scene_.any_by_depth = whole.any_by_depth;
+    scene_.air = whole.air;
     scene_.list_version = whole.list_version;
     scene_.shapes = whole.shapes;
     scene_.tree = whole.tree;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/math/finite.h"
+#include "systems/embed/air_box.h"
 #include "systems/embed/mesh_of.h"
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/scene_tree.h"
@@ -68,6 +69,15 @@ CasterId SceneStore::add_drawable(const DrawableDesc& desc) {
                                             .bounds = desc.bounds}));
 }
 
+CasterId SceneStore::add_air(const AirDesc& desc) {
+    return came_.emplace_back(casters_.add({.desc = in_air(desc), .air = true}));
+}
+
+void SceneStore::set_air(CasterId id, const AirDesc& desc) {
+    Caster* caster = casters_.find(id);
+    if (caster && caster->air) change(id, *caster, in_air(desc));
+}
+
 void SceneStore::redraw(CasterId id, const Bounds& bounds, double moves_at_most_m) {
     Caster* caster = casters_.find(id);
     if (!caster || !caster->draw) return;
@@ -83,17 +93,20 @@ void SceneStore::redraw(CasterId id, const Bounds& bounds, double moves_at_most_
 
 void SceneStore::set_caster(CasterId id, const CasterDesc& desc) {
     Caster* caster = casters_.find(id);
-    if (!caster || caster->draw) return;
-    const bool moved = caster->desc.mesh != desc.mesh || caster->desc.world_from_mesh != desc.world_from_mesh;
-    const bool marked = caster->desc.casts != desc.casts || caster->desc.receives != desc.receives ||
-                        caster->desc.cast_layers != desc.cast_layers ||
-                        caster->desc.receive_layers != desc.receive_layers;
+    if (caster && !caster->draw && !caster->air) change(id, *caster, desc);
+}
+
+void SceneStore::change(CasterId id, Caster& caster, const CasterDesc& desc) {
+    const bool moved = caster.desc.mesh != desc.mesh || caster.desc.world_from_mesh != desc.world_from_mesh;
+    const bool marked = caster.desc.casts != desc.casts || caster.desc.receives != desc.receives ||
+                        caster.desc.cast_layers != desc.cast_layers ||
+                        caster.desc.receive_layers != desc.receive_layers;
     if (!moved && !marked) return;
-    if (caster->desc.mesh != desc.mesh) exchange_mesh(id, *caster);
-    caster->desc = desc;
-    if (!caster->moved && !caster->marked) changed_.push_back(id);
-    caster->moved |= moved;
-    caster->marked |= marked;
+    if (caster.desc.mesh != desc.mesh) exchange_mesh(id, caster);
+    caster.desc = desc;
+    if (!caster.moved && !caster.marked) changed_.push_back(id);
+    caster.moved |= moved;
+    caster.marked |= marked;
 }
 
 /// Marks a caster to be listed again, with another mesh.
@@ -108,7 +121,7 @@ void SceneStore::exchange_mesh(CasterId id, Caster& caster) {
 
 void SceneStore::set_transform(CasterId id, const glm::dmat4& world_from_mesh) {
     Caster* caster = casters_.find(id);
-    if (!caster || caster->draw || caster->desc.world_from_mesh == world_from_mesh) return;
+    if (!caster || caster->draw || caster->air || caster->desc.world_from_mesh == world_from_mesh) return;
     caster->desc.world_from_mesh = world_from_mesh;
     if (!caster->moved && !caster->marked) changed_.push_back(id);
     caster->moved = true;
@@ -143,6 +156,7 @@ DropReason SceneStore::fault_of(const Caster& caster) const {
         return math::is_finite(box) && !math::is_empty(box) ? DropReason::instances_full
                                                             : DropReason::non_finite_transform;
     }
+    if (caster.air) return fault_of_air(desc.world_from_mesh);
     const std::uint32_t* mesh = meshes_.find(desc.mesh);
     if (!mesh) return DropReason::unknown_mesh;
     if (std::binary_search(lacking_.begin(), lacking_.end(), *mesh)) return DropReason::meshes_full;
@@ -167,6 +181,8 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
         item.bounds_ws = {caster.bounds.min_m, caster.bounds.max_m};
         item.translation_ws_m = math::centre(item.bounds_ws);
         item.drawable.by_depth = true;
+    } else if (caster.air) {
+        put_air(desc.world_from_mesh, item);
     } else {
         item.mesh = *meshes_.find(desc.mesh);
         item.mesh_version = library_.version_of(item.mesh);
@@ -246,6 +262,7 @@ void SceneStore::note_casters(std::uint32_t first) {
     }
     snapshot_.any_by_depth = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
                                          [](const InstanceItem& item) { return item.drawable.by_depth; });
+    snapshot_.air.any = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(), is_air);
     snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
                                          [](const InstanceItem& item) { return item.drawable.drawn; });
     snapshot_.gpu_slot_count = casters_.bound();

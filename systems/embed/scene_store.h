@@ -28,6 +28,8 @@ public:
     void remove(CasterId caster);
     CasterId add_drawable(const DrawableDesc& desc);
     void redraw(CasterId drawable, const Bounds& bounds, double moves_at_most_m);
+    CasterId add_air(const AirDesc& desc);
+    void set_air(CasterId air, const AirDesc& desc);
     LightId add_light(const LightDesc& desc);
     void set_light(LightId light, const LightDesc& desc);
     void tune(LightId light, const ShadowTuning& tuning);
@@ -54,7 +56,8 @@ public:
 
 private:
     struct Caster {
-        CasterDesc desc;                                     // for a drawable, mesh and place are unused
+        CasterDesc desc;  // for a drawable, mesh and place are unused; for air, mesh and casting
+        bool air = false;
         std::function<void(const DrawableView&)> draw = {};  // empty: it has a mesh
         Bounds bounds = {};                                  // box of a drawable
         std::uint64_t motion_since = 0;                      // DrawableMotion::since
@@ -72,6 +75,7 @@ private:
     };
     DropReason fault_of(const Caster& caster) const;
     void put(Caster& caster, CasterId id, InstanceItem& item) const;
+    void change(CasterId id, Caster& caster, const CasterDesc& desc);
     bool put_changes();
     bool splice_casters();
     void note_casters(std::uint32_t first);

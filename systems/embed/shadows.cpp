@@ -282,6 +282,8 @@ void Shadows::set_transform(CasterId caster, const glm::dmat4& world_from_mesh) 
 }
 void Shadows::set_caster(CasterId caster, const CasterDesc& desc) { state_->store.set_caster(caster, desc); }
 void Shadows::remove(CasterId caster) { state_->store.remove(caster); }
+CasterId Shadows::add_air(const AirDesc& air) { return state_->store.add_air(air); }
+void Shadows::set_air(CasterId air, const AirDesc& desc) { state_->store.set_air(air, desc); }
 LightId Shadows::add_light(const LightDesc& light) { return state_->store.add_light(light); }
 void Shadows::set_light(LightId light, const LightDesc& desc) { state_->store.set_light(light, desc); }
 void Shadows::tune(LightId light, const ShadowTuning& tuning) { state_->store.tune(light, tuning); }

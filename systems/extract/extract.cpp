@@ -65,13 +65,14 @@ bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor,
 
 /// Reads all logs. Returns the lists that the logs cannot update entity by entity.
 Extractor::Lists Extractor::read_all(ecs::Registry& registry) {
-    for (std::vector<ecs::Entity>* list : {&came_, &moved_, &shown_, &edited_, &named_}) list->clear();
+    for (std::vector<ecs::Entity>* list : {&came_, &moved_, &shown_, &fogged_, &edited_, &named_}) list->clear();
     Lists anew;
     anew.instances |= read_changes<WorldTransform>(registry, cursors_.world, &moved_, &came_);
     anew.instances |= read_changes<MorphWeights>(registry, cursors_.weights, &moved_, nullptr);
     anew.instances |= read_changes<Skin>(registry, cursors_.skin, nullptr, nullptr);
     anew.instances |= read_changes<MeshRef>(registry, cursors_.mesh, &shown_, &came_);
     anew.instances |= read_changes<ShadowCaster>(registry, cursors_.caster, &shown_, &shown_);
+    anew.instances |= read_changes<FogVolume>(registry, cursors_.fog, &fogged_, &came_);
     anew.views |= read_changes<Light>(registry, cursors_.light, &edited_, nullptr);
     anew.views |= read_changes<LightShadow>(registry, cursors_.shadow, &edited_, &edited_);
     anew.views |= read_changes<ShadowTuning>(registry, cursors_.tuning, &edited_, &edited_);
@@ -106,6 +107,7 @@ Extractor::Touched Extractor::touch(const ecs::Registry& registry, const assets:
     constexpr Touched kAllAnew{true, {true, true}};
     using Splice = InstanceExtractor::Splice;
     instances_.append_exchanged(registry, moved_, shown_, snapshot, came_);
+    instances_.append_exchanged_fog(registry, fogged_, snapshot, came_);
     if (poses_.depends_on(registry, came_)) return kAllAnew;
     const Splice splice = instances_.splice(registry, library, came_, snapshot);
     if (splice == Splice::impossible) return kAllAnew;
@@ -114,8 +116,9 @@ Extractor::Touched Extractor::touch(const ecs::Registry& registry, const assets:
     if ((bends && !instances_.bend(library, snapshot)) || !instances_.move(registry, library, moved_, snapshot))
         return kAllAnew;
     const bool shown = instances_.mark(registry, shown_, snapshot);
+    const bool fogged = instances_.change_fog(registry, fogged_, snapshot);
     const LightsAndCameras::Effect effect = touch_views(registry, snapshot);
-    return {splice == Splice::done || shown || !moved_.empty() || effect != LightsAndCameras::Effect::none,
+    return {splice == Splice::done || shown || fogged || !moved_.empty() || effect != LightsAndCameras::Effect::none,
             {false, effect == LightsAndCameras::Effect::listing}};
 }
 
@@ -136,7 +139,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     }
     bool changed = anew.instances || anew.views;
     const auto is_empty = [](const auto* list) { return list->empty(); };
-    const std::array lists{&came_, &moved_, &shown_, &edited_, &named_};
+    const std::array lists{&came_, &moved_, &shown_, &fogged_, &edited_, &named_};
     if (changed || !std::all_of(lists.begin(), lists.end(), is_empty)) {
         ++snapshot.version;
         if (!anew.instances) {

@@ -28,7 +28,7 @@ public:
 
 private:
     struct Cursors {
-        ecs::ChangeCursor world, mesh, caster, light, shadow, tuning, camera, name, skin, weights;
+        ecs::ChangeCursor world, mesh, caster, fog, light, shadow, tuning, camera, name, skin, weights;
     };
     /// Lists to rebuild.
     struct Lists {
@@ -50,9 +50,9 @@ private:
     PoseExtractor poses_;
     LightsAndCameras views_;
     InstanceExtractor instances_;
-    /// Changes since the last frame, possibly repeated: mesh or place gained or lost; place or pose; visibility or
-    /// casting; lights and cameras; names.
-    std::vector<ecs::Entity> came_, moved_, shown_, edited_, named_;
+    /// Changes since the last frame, possibly repeated: mesh, fog or place gained or lost; place or pose; visibility or
+    /// casting; fog; lights and cameras; names.
+    std::vector<ecs::Entity> came_, moved_, shown_, fogged_, edited_, named_;
     std::vector<QuarantinedEntity> quarantined_;  // as last seen
     std::vector<glm::dvec3> corners_ws_m_;        // scratch
     glm::uvec2 viewport_px_{0, 0};

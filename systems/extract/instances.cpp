@@ -7,6 +7,7 @@
 
 #include "gnomon/components.h"
 #include "systems/extract/drawable_basis.h"
+#include "systems/extract/fog_items.h"
 #include "systems/extract/names.h"
 #include "systems/extract/scene_tree.h"
 
@@ -78,6 +79,15 @@ bool InstanceExtractor::append(const ecs::Registry& registry, const assets::Mesh
         unusable_.push_back({entity, name_of(registry, entity), reason});
         return false;
     };
+    const bool has_fog = registry.has<FogVolume>(entity);
+    if (has_fog && !is_fog(registry, entity)) refuse(DropReason::absurd_fog);
+    if (!registry.has<MeshRef>(entity)) {
+        if (!is_fog(registry, entity)) return false;
+        const std::optional<InstanceItem> fog = fog_instance(registry, entity);
+        if (!fog) return refuse(DropReason::zero_scale);
+        items.push_back(*fog);
+        return true;
+    }
     const MeshRef& ref = *registry.get<MeshRef>(entity);
     if (ref.mesh >= library.meshes.size()) return refuse(DropReason::unknown_mesh);
     const assets::Mesh& mesh = library.meshes[ref.mesh];
@@ -146,7 +156,9 @@ bool InstanceExtractor::any_mesh_changed(const assets::MeshLibrary& library, std
     if (library.version == library_version_) return others_lack;
     library_version_ = library.version;
     free_shapes(library, snapshot);
-    const auto is_other = [&](const auto& item) { return item.mesh_version != library.version_of(item.mesh); };
+    const auto is_other = [&](const auto& item) {
+        return item.mesh != kNoMesh && item.mesh_version != library.version_of(item.mesh);
+    };
     const auto waits = [](const DroppedEntity& dropped) {
         return dropped.reason == DropReason::unknown_mesh || dropped.reason == DropReason::meshes_full;
     };
@@ -166,6 +178,9 @@ void InstanceExtractor::list(const ecs::Registry& registry, const assets::MeshLi
     registry.each<MeshRef, WorldTransform>([&](ecs::Entity e, const MeshRef&, const WorldTransform&) {
         append(registry, library, e, snapshot, snapshot.instances);
     });
+    registry.each<FogVolume, WorldTransform>([&](ecs::Entity e, const FogVolume&, const WorldTransform&) {
+        if (!registry.has<MeshRef>(e)) append(registry, library, e, snapshot, snapshot.instances);
+    });
     std::sort(snapshot.instances.begin(), snapshot.instances.end(), earlier);
     instance_of_.assign(instance_of_.size(), kNone);
     note_places(0, snapshot);
@@ -173,6 +188,7 @@ void InstanceExtractor::list(const ecs::Registry& registry, const assets::MeshLi
     for (InstanceItem& item : snapshot.instances) item.gpu_slot = slot_for(item.entity);
     snapshot.gpu_slot_count = static_cast<std::uint32_t>(slot_owner_.size());
     note_bent(snapshot);
+    list_fogs(registry, snapshot);
     // An unchanged instance keeps its version, so that maps that show it stay valid.
     std::size_t old = 0;
     for (std::uint32_t i = 0; i < snapshot.instances.size(); ++i) {
@@ -213,7 +229,7 @@ InstanceExtractor::Splice InstanceExtractor::splice(const ecs::Registry& registr
     const std::size_t refused = unusable_.size();
     for (const ecs::Entity e : entities_) {
         if (is_listed(e, snapshot)) splice_.removed.push_back(listed_at(e));
-        if (registry.has<MeshRef>(e) && registry.has<WorldTransform>(e))
+        if ((registry.has<MeshRef>(e) || registry.has<FogVolume>(e)) && registry.has<WorldTransform>(e))
             append(registry, library, e, snapshot, splice_.added);
         if (unusable_.size() > refused) return Splice::impossible;
     }
@@ -231,6 +247,7 @@ InstanceExtractor::Splice InstanceExtractor::splice(const ecs::Registry& registr
     if (std::exchange(shapes_version_, library.version) != library.version) list_shapes(library, snapshot);
     note_places(splice_instances(snapshot, splice_), snapshot);
     note_bent(snapshot);
+    list_fogs(registry, snapshot);
     return Splice::done;
 }
 
@@ -239,7 +256,8 @@ void InstanceExtractor::append_exchanged(const ecs::Registry& registry, std::spa
                                          std::vector<ecs::Entity>& list) const {
     for (const ecs::Entity e : moved) {
         const WorldTransform* world = registry.get<WorldTransform>(e);
-        const bool placed = world && registry.has<MeshRef>(e) && !registry.has<Skin>(e);
+        const bool listed = registry.has<MeshRef>(e) || is_fog(registry, e);
+        const bool placed = world && listed && !registry.has<Skin>(e);
         if (placed && (listed_at(e) != kNone) != drawable_basis(world->basis).has_value()) list.push_back(e);
     }
     for (const ecs::Entity e : shown) {
@@ -248,6 +266,13 @@ void InstanceExtractor::append_exchanged(const ecs::Registry& registry, std::spa
         const std::uint32_t i = listed_at(e);
         if (i == kNone || snapshot.instances[i].mesh != ref->mesh) list.push_back(e);
     }
+}
+
+void InstanceExtractor::append_exchanged_fog(const ecs::Registry& registry, std::span<const ecs::Entity> fogged,
+                                             const SceneSnapshot& snapshot, std::vector<ecs::Entity>& list) const {
+    for (const ecs::Entity e : fogged)
+        if (!registry.has<MeshRef>(e) && is_listed(e, snapshot) != fog_instance(registry, e).has_value())
+            list.push_back(e);
 }
 
 bool InstanceExtractor::bend(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
@@ -272,7 +297,8 @@ bool InstanceExtractor::move(const ecs::Registry& registry, const assets::MeshLi
         InstanceItem& item = snapshot.instances[i];
         const PoseItem* pose = pose_of(snapshot, item.mesh);
         if (pose && pose->skinned) continue;  // bend() updates these
-        if (!place(item, *world, library.meshes[item.mesh], pose)) return false;
+        const bool air = is_air(item);
+        if (air ? !put_fog(registry, item) : !place(item, *world, library.meshes[item.mesh], pose)) return false;
         if (item.version != snapshot.version) snapshot.changed_instances.push_back(i);
         item.version = snapshot.version;
     }
@@ -286,11 +312,28 @@ bool InstanceExtractor::mark(const ecs::Registry& registry, std::span<const ecs:
         if (!is_listed(e, snapshot)) continue;
         const std::uint32_t i = listed_at(e);
         InstanceItem& item = snapshot.instances[i];
+        if (is_air(item)) continue;
         const Marks marks = put_marks(registry, *registry.get<MeshRef>(e), item);
         any = any || marks != Marks::same;
         if (marks == Marks::recorded && item.version != snapshot.version) snapshot.changed_instances.push_back(i);
     }
     if (any) snapshot.list_version = snapshot.version;
+    return any;
+}
+
+bool InstanceExtractor::change_fog(const ecs::Registry& registry, std::span<const ecs::Entity> fogged,
+                                   SceneSnapshot& snapshot) {
+    bool any = false;
+    for (const ecs::Entity e : fogged) {
+        if (!is_listed(e, snapshot) || !is_air(snapshot.instances[listed_at(e)])) continue;
+        const std::uint32_t i = listed_at(e);
+        put_fog(registry, snapshot.instances[i]);
+        if (snapshot.instances[i].version != snapshot.version) snapshot.changed_instances.push_back(i);
+        snapshot.instances[i].version = snapshot.version;
+        any = true;
+    }
+    if (any) snapshot.list_version = snapshot.version;
+    if (any) list_fogs(registry, snapshot);
     return any;
 }
 

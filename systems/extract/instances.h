@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// Fills SceneSnapshot::instances and its tree from entities with a MeshRef and a WorldTransform. All of it writes what
+/// Fills SceneSnapshot::instances and its tree from entities with a WorldTransform and a MeshRef or FogVolume. All of it writes what
 /// changes as snapshot.version.
 class InstanceExtractor {
 public:
@@ -23,7 +23,7 @@ public:
     void list(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
     enum class Splice : std::uint8_t { nothing, done, impossible };
-    /// Takes entities in or out that gained or lost a MeshRef or WorldTransform, possibly repeated, in place.
+    /// Takes entities in or out that gained or lost a MeshRef, FogVolume or WorldTransform, possibly repeated, in place.
     /// `impossible`: nothing is changed and list() is needed: entities that cannot be placed are among them, or they
     /// are a large part of the scene.
     Splice splice(const ecs::Registry& registry, const assets::MeshLibrary& library,
@@ -35,6 +35,10 @@ public:
                           std::span<const ecs::Entity> shown, const SceneSnapshot& snapshot,
                           std::vector<ecs::Entity>& list) const;
 
+    /// Does the same for entities with a written FogVolume.
+    void append_exchanged_fog(const ecs::Registry& registry, std::span<const ecs::Entity> fogged,
+                              const SceneSnapshot& snapshot, std::vector<ecs::Entity>& list) const;
+
     /// Updates instances with a changed pose, or a changed WorldTransform. Returns false if one became unusable.
     bool bend(const assets::MeshLibrary& library, SceneSnapshot& snapshot);
     bool move(const ecs::Registry& registry, const assets::MeshLibrary& library, std::span<const ecs::Entity> moved,
@@ -44,7 +48,10 @@ public:
     /// their lists of casters and visible instances.
     bool mark(const ecs::Registry& registry, std::span<const ecs::Entity> shown, SceneSnapshot& snapshot);
 
-    /// Returns the entities with a MeshRef that could not be listed.
+    /// Updates boxes with a written FogVolume. Returns whether there are any. They have a new list_version as well.
+    bool change_fog(const ecs::Registry& registry, std::span<const ecs::Entity> fogged, SceneSnapshot& snapshot);
+
+    /// Returns the entities with a MeshRef or FogVolume that could not be listed.
     const std::vector<DroppedEntity>& unusable() const { return unusable_; }
 
 private:

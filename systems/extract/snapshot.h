@@ -95,10 +95,13 @@ struct Winding {
     bool operator==(const Winding&) const = default;
 };
 
-/// Placed mesh.
+/// InstanceItem::mesh of what has none.
+inline constexpr std::uint32_t kNoMesh = 0xffffffffu;
+
+/// Placed mesh, or a box of air: a receiver without a surface.
 struct InstanceItem {
     ecs::Entity entity = {};
-    std::uint32_t mesh = 0;
+    std::uint32_t mesh = 0;      // kNoMesh: air
     std::uint32_t gpu_slot = 0;  // index of its record in the instance buffer; stable while the entity lives
     glm::dmat3 basis{1.0};
     glm::dvec3 translation_ws_m{0.0};
@@ -115,6 +118,9 @@ struct InstanceItem {
     std::uint64_t mesh_version = 0;  // assets::MeshLibrary::version_of(mesh): another mesh may take the number
 };
 
+/// Returns true if the item is a box of air: it receives anywhere in its bounds, and neither casts nor shows a surface.
+inline bool is_air(const InstanceItem& item) { return item.mesh == kNoMesh; }
+
 /// Returns true if the instance casts under this light (first function), or receives its shadows (second).
 inline bool casts_under(const LightItem& light, const InstanceItem& item) {
     return item.casts && (light.shadow.layers & item.cast_layers) != 0;
@@ -124,7 +130,22 @@ inline bool receives_under(const LightItem& light, const InstanceItem& item) {
 }
 
 /// Returns true if cameras see the instance's own surface.
-inline bool shows_surface(const InstanceItem& item) { return item.visible && !item.shadow_catcher; }
+inline bool shows_surface(const InstanceItem& item) { return item.visible && !item.shadow_catcher && !is_air(item); }
+
+/// What a box of air shows of lights. Only boxes that show something have one.
+struct FogItem {
+    std::uint32_t instance = 0;     // index into SceneSnapshot::instances
+    glm::dvec3 half_extent_m{0.0};  // along the columns of InstanceItem::basis
+    float extinction_per_m = 0.0f;  // above 0
+    glm::vec3 albedo{0.0f};
+    float anisotropy = 0.0f;
+};
+
+/// Air of a scene.
+struct SceneAir {
+    bool any = false;           // is_air() holds for some instance
+    std::vector<FogItem> fogs;  // by rising instance
+};
 
 struct SceneSnapshot;
 /// Returns the mesh's pose; null: at rest.
@@ -144,6 +165,7 @@ struct SceneSnapshot {
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
     bool any_drawable = false;                     // DrawableMotion::drawn is set for some instance
     bool any_by_depth = false;                     // DrawableMotion::by_depth is set for some instance
+    SceneAir air = {};
     std::uint64_t version = 0;  // grows with every change; by 1 if changed_instances has all instances with a new
                                 // version. 0: changes are not counted, and everything is always new
     /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:

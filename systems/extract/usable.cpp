@@ -35,6 +35,16 @@ bool usable(const Light& light) {
             light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);
 }
 
+bool usable(const FogVolume& fog) {
+    const auto within = [](float value, float least, float most) { return value >= least && value <= most; };
+    const glm::dvec3& half_m = fog.half_extent_m;
+    const bool box =
+        half_m.x > 0.0 && half_m.y > 0.0 && half_m.z > 0.0 && std::isfinite(half_m.x + half_m.y + half_m.z);
+    return box && within(fog.extinction_per_m, 0.0f, 1000.0f) && within(fog.albedo.r, 0.0f, 1.0f) &&
+           within(fog.albedo.g, 0.0f, 1.0f) && within(fog.albedo.b, 0.0f, 1.0f) &&
+           within(fog.anisotropy, -0.95f, 0.95f);
+}
+
 bool usable(const Camera& camera) {
     if (!(camera.near_m < camera.far_m)) return false;
     if (camera.projection == CameraProjection::orthographic)

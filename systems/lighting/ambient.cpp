@@ -24,7 +24,7 @@ double median(std::vector<double>& values) {
 double MidstFinder::middle_of(const SceneSnapshot& scene, int axis) {
     scratch_.clear();
     for (const InstanceItem& item : scene.instances)
-        if (item.visible) scratch_.push_back(math::centre(item.bounds_ws)[axis]);
+        if (item.visible && !is_air(item)) scratch_.push_back(math::centre(item.bounds_ws)[axis]);
     return scratch_.empty() ? 0.0 : median(scratch_);
 }
 
@@ -35,7 +35,7 @@ const Midst& MidstFinder::find(const SceneSnapshot& scene) {
     for (int axis = 0; axis < 3; ++axis) midst_.middle_ws_m[axis] = middle_of(scene, axis);
     scratch_.clear();
     for (const InstanceItem& item : scene.instances)
-        if (item.visible)
+        if (item.visible && !is_air(item))
             scratch_.push_back(glm::distance(math::centre(item.bounds_ws), midst_.middle_ws_m) +
                                glm::length(math::half_extent(item.bounds_ws)));
     if (!scratch_.empty()) midst_.reach_m = median(scratch_);

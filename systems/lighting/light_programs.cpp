@@ -41,6 +41,8 @@ const char* output_name(ShaderPass output) {
             return "found middles";
         case ShaderPass::tint:
             return "tint";
+        case ShaderPass::fog:
+            return "light in fog";
     }
     return "light";
 }
@@ -60,7 +62,7 @@ bool adds_to_picture(ShaderPass output) {
 
 /// Returns true if the output shows light in its colour, and so reads what translucent casters let through.
 bool reads_tint(ShaderPass output) {
-    return adds_to_picture(output) || is_forward(output) || output == ShaderPass::tint;
+    return adds_to_picture(output) || is_forward(output) || output == ShaderPass::tint || output == ShaderPass::fog;
 }
 
 /// Returns the file under shaders/ that gives the share of a light that a surface sees.
@@ -73,6 +75,7 @@ std::string_view visible_share_file(ShaderPass output, bool found_before) {
 /// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
 std::string_view fragment_file(ShaderPass output) {
     if (output == ShaderPass::tint) return "lighting/lights/tint.frag";
+    if (output == ShaderPass::fog) return "lighting/fog/fog_light.frag";
     const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility ||
                           output == ShaderPass::decided_visibility || output == ShaderPass::crossed_areas ||
                           !middle_state(output, false).empty();
@@ -90,7 +93,7 @@ LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
     for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_,
                            unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_,
-                           tonemap_transparent_, catcher_base_, catcher_shares_})
+                           tonemap_transparent_, catcher_base_, catcher_shares_, fog_base_})
         device_.destroy(e.program);
 }
 
@@ -247,6 +250,11 @@ gl::ProgramHandle LightPrograms::catcher_shares() {
         make(catcher_shares_, "catcher shares", "common/fullscreen.vert", "lighting/catchers/catcher_shares.frag", {},
              nullptr);
     return catcher_shares_.program;
+}
+gl::ProgramHandle LightPrograms::fog_base() {
+    if (is_due(fog_base_))
+        make(fog_base_, "fog base", "common/fullscreen.vert", "lighting/fog/fog_base.frag", {}, nullptr);
+    return fog_base_.program;
 }
 gl::ProgramHandle LightPrograms::luminance() {
     return needed(luminance_, "luminance", "common/fullscreen.vert", "lighting/post/luminance.frag");

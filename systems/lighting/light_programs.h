@@ -22,6 +22,7 @@ namespace gnomon::lighting {
 /// - decided_middles, undecided_middles, crossed_areas: for EdgePass, visibility at the middle of these pixels and of
 /// the
 ///   others, and of the areas that an edge crosses
+/// - fog: what a light adds to a box of fog
 /// - tint: colour that translucent casters let through
 /// - found_middles: for EdgePass, visibility at the middles of all pixels, by rays
 enum class ShaderPass : std::uint8_t {
@@ -40,7 +41,8 @@ enum class ShaderPass : std::uint8_t {
     undecided_middles,
     crossed_areas,
     found_middles,
-    tint
+    tint,
+    fog
 };
 
 /// Returns whether a row's program draws meshes, in place of passes over the picture.
@@ -96,6 +98,8 @@ public:
     /// {0} if they cannot be made.
     gl::ProgramHandle catcher_base();
     gl::ProgramHandle catcher_shares();
+    /// Returns the program of what fog takes and scatters of the light from everywhere; {0} if it cannot be made.
+    gl::ProgramHandle fog_base();
     gl::ProgramHandle luminance();
     /// Returns the program that writes the picture. `transparent`: without what is behind all surfaces.
     gl::ProgramHandle tonemap(bool transparent);
@@ -127,7 +131,7 @@ private:
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
-    Entry tonemap_transparent_, catcher_base_, catcher_shares_;
+    Entry tonemap_transparent_, catcher_base_, catcher_shares_, fog_base_;
     Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_;
     bool some_unlit_ = false;
     bool coloured_ = false;

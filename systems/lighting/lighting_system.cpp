@@ -76,6 +76,8 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
     kept_stride_ = aligned(sizeof(KeptRecord), alignment);
     kept_offset_ = lights_offset_ + light_stride_ * static_cast<std::uint32_t>(inputs.lights.size());
+    fog_stride_ = aligned(sizeof(FogRecord), alignment);
+    fogs_offset_ = kept_offset_ + kept_stride_ * static_cast<std::uint32_t>(inputs.lights.size());
     const auto asks = [](const shadow::LightingLight& light) { return light.row.rays; };
     const bool wanted = std::any_of(inputs.lights.begin(), inputs.lights.end(), asks);
     const auto lists = [](const shadow::LightingLight& light) { return light.row.sheets; };
@@ -95,7 +97,7 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     if (!area_table_.provide(std::any_of(scene.lights.begin(), scene.lights.end(), shows_area)))
         return gl::Failure::out_of_memory;
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
-                      uniforms_.reserve(kept_offset_ + std::uint64_t{kept_stride_} * inputs.lights.size());
+                      uniforms_.reserve(fogs_offset_ + std::uint64_t{fog_stride_} * fogs_.size());
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
 }
 
@@ -133,7 +135,9 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     const math::Frustum frustum = jitters ? jittered_frustum(consumer) : consumer_frustum(consumer);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
-        if (!item.visible || item.gpu_slot >= gpu.capacity() || !math::may_overlap(frustum, item.bounds_ws)) continue;
+        if (!item.visible || is_air(item) || item.gpu_slot >= gpu.capacity() ||
+            !math::may_overlap(frustum, item.bounds_ws))
+            continue;
         if (item.shadow_catcher) {
             add_catcher(item, gpu);
             continue;
@@ -190,6 +194,12 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
         const gl::Rect& area = passes_[i].read_area;
         const KeptRecord record{{area.x, area.y, area.width, area.height}};
         if (passes_[i].reads) put_record(uniform_scratch_, kept_offset_ + i * kept_stride_, record);
+    }
+    const glm::dvec3& anchor_ws_m = scene.consumers[inputs.consumer].position_ws_m;
+    for (std::uint32_t i = 0; i < fogs_.size(); ++i) {
+        const FogItem& fog = scene.air.fogs[fogs_[i]];
+        put_record(uniform_scratch_, fogs_offset_ + i * fog_stride_,
+                   fog_record(fog, scene.instances[fog.instance], anchor_ws_m, settings.noise_round));
     }
     list.update(items_.handle(), 0, std::span<const DrawItem>(draw_items_));
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(uniform_scratch_));
@@ -284,6 +294,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     GNOMON_ZONE("lighting");
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu, settings.jitter_px != glm::dvec2(0.0));
+    collect_fogs(scene.consumers[inputs.consumer], scene);
     passes_.clear();
     camera_ = jittered(inputs.camera, settings.jitter_px);
     programs_.next_frame(settings.most_rows);
@@ -305,6 +316,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     record_lights(inputs, scene, gpu, list, outcome);
     record_catchers(inputs, gpu, list, outcome);
     record_blended(inputs, gpu, list, outcome);
+    record_fogs(inputs, gpu, list, outcome);
     record_finish(settings.transparent, list);
     outcome.ray_list_bytes = ray_list_.bytes();
     outcome.position_bytes = targets_.place_bytes();

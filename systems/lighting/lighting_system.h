@@ -15,6 +15,7 @@
 #include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/edge_pass.h"
 #include "systems/lighting/exposure_meter.h"
+#include "systems/lighting/fog_record.h"
 #include "systems/lighting/kept_visibility.h"
 #include "systems/lighting/light_lookup.h"
 #include "systems/lighting/lighting_targets.h"
@@ -44,7 +45,7 @@ struct LightingSettings {
     std::uint32_t noise_round = 0;  // shadow::in_round()
 };
 
-/// Deferred lighting: surfaces, a pass per light, shadow catchers, blended surfaces, exposure. A light's pass is
+/// Deferred lighting: surfaces, a pass per light, shadow catchers, blended surfaces, fog, exposure. A light's pass is
 /// limited to its screen rectangle and to its farthest depth. Its only input from the shadow system are LightingInputs.
 /// Owns its device objects.
 class LightingSystem {
@@ -157,6 +158,10 @@ private:
     void draw_catchers(const gl::PipelineState& state, const GpuScene& gpu, gl::CommandList& list) const;
     void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
                         shadow::LightingOutcome& outcome);
+    void collect_fogs(const ConsumerItem& consumer, const SceneSnapshot& scene);
+    LightProgram fog_program(const shadow::LightingLight& light);
+    void record_fogs(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
+                     shadow::LightingOutcome& outcome);
     void record_finish(bool transparent, gl::CommandList& list);
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
@@ -191,8 +196,9 @@ private:
     bool has_places_ = false;      // the last record() wrote exact positions of surfaces
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
     std::uint32_t light_stride_ = 0, kept_stride_ = 0, lights_offset_ = 0, kept_offset_ = 0, ambient_offset_ = 0,
-                  exposure_offset_ = 0;
+                  exposure_offset_ = 0, fog_stride_ = 0, fogs_offset_ = 0;
     std::vector<std::uint32_t> visible_;
+    std::vector<std::uint32_t> fogs_;  // indices into SceneAir::fogs, the farthest first
     std::vector<double> farthest_m_;  // per visible instance
     std::vector<DrawItem> draw_items_;
     std::vector<SurfaceDraw> draws_, blended_, catchers_;

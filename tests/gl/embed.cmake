@@ -1,6 +1,7 @@
 # gnomon::Shadows beside an engine with a renderer of its own.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_embed LABEL gl SOURCES
+    embed_air_gl_test.cpp
     embed_buffers_gl_test.cpp
     embed_contexts_gl_test.cpp
     embed_drawables_gl_test.cpp

@@ -157,12 +157,13 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         lighting.set_coloured(false);
         add(lighting.luminance());
         add(lighting.catcher_shares());
+        add(lighting.fog_base());
         for (const bool transparent : {false, true}) add(lighting.tonemap(transparent));
         // Rows with sheets share programs.
         std::set<std::uint32_t> shared;
         for (const shadow::ShaderKey& row : all_rows()) {
             using enum lighting::ShaderPass;
-            for (const auto output : {picture, visibility, blended, catcher, verdicts, rays}) {
+            for (const auto output : {picture, visibility, blended, catcher, verdicts, rays, fog}) {
                 if (!row.sheets && (output == verdicts || output == rays)) continue;
                 const gl::ProgramHandle program = lighting.row(row, output);
                 if (!row.sheets || shared.insert(program.id).second) add(program);

@@ -66,6 +66,7 @@ void add_columns(std::string_view stage, const shadow::ShadowFrame& f, Columns& 
         add("receivers", hash(f.sets.receiver_items));
         add("casters", hash(f.sets.caster_items));
         add("points", hash(f.sets.receiver_points_ws));
+        add("error points", hash(f.sets.error_points_ws));
         add("hulls", hash(f.sets.hulls));
         add("outlines", hash(f.sets.outlines));
     }

@@ -29,6 +29,7 @@ double most_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightIt
     double most = 0.0;
     for (const std::uint32_t r : receivers) {
         const InstanceItem& item = scene.instances[r];
+        if (is_air(item)) continue;
         const double away_m = distance_m(item.bounds_ws);
         const double received = illuminance_lux(light, away_m * away_m);
         if (!std::isfinite(received)) return std::numeric_limits<double>::infinity();
@@ -53,9 +54,11 @@ bool comes_before(ecs::Entity a, ecs::Entity b) {
 
 double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                           std::span<const std::uint32_t> receivers, double exposure) {
-    // Shares of light show at any brightness.
-    const auto catches = [&](std::uint32_t r) { return scene.instances[r].shadow_catcher; };
-    if (std::any_of(receivers.begin(), receivers.end(), catches)) return std::numeric_limits<double>::infinity();
+    // Shares of light show at any brightness, and deep air adds up light of any strength.
+    const auto shows_all = [&](std::uint32_t r) {
+        return scene.instances[r].shadow_catcher || is_air(scene.instances[r]);
+    };
+    if (std::any_of(receivers.begin(), receivers.end(), shows_all)) return std::numeric_limits<double>::infinity();
     return exposure * most_steps(scene, gpu, light, receivers,
                                  [&](const math::Aabb& box_ws) { return math::distance(box_ws, light.position_ws_m); });
 }

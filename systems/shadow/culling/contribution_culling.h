@@ -12,7 +12,7 @@ namespace gnomon::shadow {
 /// Returns an upper bound on what a light adds to any pixel of its receivers, in display steps (8-bit sRGB). It takes
 /// the nearest receiver, the brightest channel, the materials' largest reflectance, and the steepest part of tone curve
 /// and encoding. Infinite where a receiver may touch the light, or is a shadow
-/// catcher.
+/// catcher or air.
 double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                           std::span<const std::uint32_t> receivers, double exposure);
 

@@ -64,7 +64,7 @@ math::Aabb seen_from(const glm::dvec3& place_ws_m, const math::Aabb& box_ws) {
 }  // namespace
 
 double nearest_receiver_m(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
-                          std::vector<glm::dvec3>& scratch) {
+                          std::vector<glm::dvec3>& scratch, ReceiverKinds kinds) {
     const Sight own = from_own_place(consumer);
     const auto rank = [&](const math::Aabb& box_ws) {
         return math::lowest_corner(seen_from(consumer.position_ws_m, box_ws), own.depth_m, own.within());
@@ -72,6 +72,7 @@ double nearest_receiver_m(const SceneSnapshot& scene, const ConsumerItem& consum
     const auto depth_m = [&](std::uint32_t i, double lowest) {
         const InstanceItem& item = scene.instances[i];
         if (!item.visible || !item.receives || (item.receive_layers & layers) == 0) return lowest;
+        if (kinds == ReceiverKinds::surfaces && is_air(item)) return lowest;
         const math::ShapeTree* shape = item.mesh < scene.shapes.size() ? scene.shapes[item.mesh].get() : nullptr;
         if (shape) {
             const Sight sight = carried(own, item.basis, item.translation_ws_m - consumer.position_ws_m);

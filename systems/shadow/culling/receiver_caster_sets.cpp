@@ -8,6 +8,7 @@
 #include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/culling/error_points.h"
 #include "systems/shadow/culling/inner_receivers.h"
 #include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/nearest_receiver.h"
@@ -45,7 +46,7 @@ public:
 
     LightSets run(const ShadowRequest& request) {
         const std::size_t receivers = out_.receiver_items.size(), points = out_.receiver_points_ws.size(),
-                          hulls = out_.hulls.size();
+                          error_points = out_.error_points_ws.size(), hulls = out_.hulls.size();
         find_candidates();
         scratch_.receivers.clear(scene_.instances.size());
         if (light_facts(light_.kind).parallel) look_along_sun();
@@ -55,6 +56,7 @@ public:
         LightSets sets;
         sets.receivers = since(receivers, out_.receiver_items.size());
         sets.receiver_points = since(points, out_.receiver_points_ws.size());
+        sets.error_points = since(error_points, out_.error_points_ws.size());
         sets.hulls = since(hulls, out_.hulls.size());
         return sets;
     }
@@ -97,6 +99,10 @@ private:
             const std::uint32_t found = clip_candidates_of(c, used, core);
             if (found > 0) receiver_hull.consumers |= consumer_bit(c);
             receiver_hull.receivers += found;
+            if (!out_.nearest_surface_m.empty())
+                append_error_points(scene_,
+                                    {c, slice(scratch_.candidates, scratch_.camera_candidates[c]), opening, core},
+                                    reach_, scratch_, out_);
         }
         return since(first, out_.receiver_points_ws.size());
     }
@@ -305,8 +311,12 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, SetScratch
                  const LightAccounts& accounts) {
     sets.clear();
     const ShadowLayers layers = layers_of_all(scene, inputs.requests);
-    for (const ConsumerItem& consumer : scene.consumers)
+    for (const ConsumerItem& consumer : scene.consumers) {
         sets.camera_frusta.push_back(seen_receivers(scene, consumer, layers, scratch));
+        if (scene.air.any)
+            sets.nearest_surface_m.push_back(
+                nearest_receiver_m(scene, consumer, layers, scratch.points_ws, ReceiverKinds::surfaces));
+    }
     for (std::uint32_t i = 0; i < inputs.requests.size(); ++i) {
         const LightTimer time(accounts.cpu_us, i);
         LightSets& found = sets.lights.emplace_back();

@@ -136,8 +136,8 @@ LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uin
       first_resized_(sizes_of(out.resized_sets)) {}
 
 LightFit::ArraySizes LightFit::sizes_of(const ReceiverCasterSets& sets) {
-    return {sets.receiver_items.size(), sets.caster_items.size(), sets.receiver_points_ws.size(), sets.hulls.size(),
-            sets.outlines.size()};
+    return {sets.receiver_items.size(),  sets.caster_items.size(), sets.receiver_points_ws.size(),
+            sets.error_points_ws.size(), sets.hulls.size(),        sets.outlines.size()};
 }
 
 std::span<const ShadowView> LightFit::views() const { return std::span(out_.views).subspan(first_view_); }
@@ -168,13 +168,14 @@ bool LightFit::fit_and_count(const LightFitHistory& held, bool recount, LightFit
 bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
     const ShadowRequest& request = out_.lights[index_].request;
     const LightSetsView sets = out_.sets_of(inputs_.sets, index_);
-    const auto points = sets.receiver_points_ws();
+    const auto error_points = sets.error_points_ws();
     const FitInput input{light_,
                          request,
                          scene_,
                          sets.receivers(),
                          sets.casters(),
-                         points,
+                         sets.receiver_points_ws(),
+                         error_points,
                          sets.hulls(),
                          sets.arrays.receiver_points_ws,
                          request.map.filtering.border_texel,
@@ -188,7 +189,7 @@ bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
         ShadowView& view = out_.views[v];
         view.light = index_;
         state_receivers(light_, sets.hulls(), view);
-        state_errors(scene_, points, edge_texel_at(request.map.filtering, finest_texel_m(view)), view);
+        state_errors(scene_, error_points, edge_texel_at(request.map.filtering, finest_texel_m(view)), view);
     }
     return true;
 }
@@ -268,6 +269,7 @@ void LightFit::select_sets_again() {
     sets.receiver_items.resize(first_resized_.receivers);
     sets.caster_items.resize(first_resized_.casters);
     sets.receiver_points_ws.resize(first_resized_.points);
+    sets.error_points_ws.resize(first_resized_.error_points);
     sets.hulls.resize(first_resized_.hulls);
     sets.outlines.resize(first_resized_.outlines);
     FitChoice& choice = out_.lights[index_];

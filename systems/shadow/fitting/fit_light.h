@@ -56,7 +56,7 @@ public:
 
 private:
     struct ArraySizes {
-        std::size_t receivers, casters, points, hulls, outlines;
+        std::size_t receivers, casters, points, error_points, hulls, outlines;
     };
     static ArraySizes sizes_of(const ReceiverCasterSets& sets);
     ShadowRequest& request() { return out_.lights[index_].request; }

@@ -139,6 +139,7 @@ void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& 
     fitted.casters.clear();
     fitted.resized_sets.clear();
     fitted.resized_sets.camera_frusta = inputs.sets.camera_frusta;
+    fitted.resized_sets.nearest_surface_m = inputs.sets.nearest_surface_m;
     fitted.lights.assign(inputs.requests.size(), {});
     next_history.lights.clear();
     for (std::uint32_t i = 0; i < inputs.requests.size(); ++i) {

@@ -115,7 +115,8 @@ struct LookupFailure {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights
     Reason reason = Reason::none;
     bool unshadowed = false;    // it is drawn without its shadow, or not at all; else by one tap of its map
-    bool forward_only = false;  // on blended surfaces or shadow catchers; on all others its shadow is what it should be
+    bool forward_only =
+        false;  // on blended surfaces, shadow catchers or in fog; elsewhere its shadow is what it should be
     LookupAccuracy fallback;    // accuracy of that one tap
     bool operator==(const LookupFailure&) const = default;
 };

@@ -28,11 +28,16 @@ struct ReceiverHull {
     double reach_m = 0.0;         // largest distance of the points from the origin; infinite if parallel
 };
 
+/// Share of the way to a box of air's farthest seen point up to which the air does not count for errors. It adds about
+/// that share of what the box adds to a pixel.
+inline constexpr double kAirShare = 1.0 / 8.0;
+
 /// One light's potential receivers (PSR) and casters (PSC), as ranges of ReceiverCasterSets' arrays.
 struct LightSets {
     IndexRange receivers;        // into receiver_items
     IndexRange casters;          // into caster_items, for all views of the light
     IndexRange receiver_points;  // into receiver_points_ws: corners of receivers clipped to camera frusta and light
+    IndexRange error_points;     // into error_points_ws; empty: receiver_points
     IndexRange hulls;            // one for a sun or a single spot view, one per face of a cube
 };
 
@@ -40,9 +45,13 @@ struct LightSets {
 struct ReceiverCasterSets {
     std::vector<LightSets> lights;              // one per light; empty ranges where it is skipped
     std::vector<math::Frustum> camera_frusta;   // one per camera view; near plane at its nearest receiver
+    std::vector<double> nearest_surface_m;      // one per camera view, view depth; empty: no receiver is air
     std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
     std::vector<std::uint32_t> caster_items;    // indices into SceneSnapshot::instances
     std::vector<glm::dvec3> receiver_points_ws;
+    /// Corners of the parts that errors are stated for, and that cascades begin at: those of surfaces, and those of air
+    /// from kAirShare on. Empty while no receiver is air.
+    std::vector<glm::dvec3> error_points_ws;
     std::vector<ReceiverHull> hulls;
     std::vector<glm::dvec2> outlines;
 
@@ -58,6 +67,10 @@ struct LightSetsView {
     std::span<const glm::dvec3> receiver_points_ws() const {
         return slice(arrays.receiver_points_ws, ranges.receiver_points);
     }
+    std::span<const glm::dvec3> error_points_ws() const {
+        return ranges.error_points.count > 0 ? slice(arrays.error_points_ws, ranges.error_points)
+                                             : receiver_points_ws();
+    }
     std::span<const ReceiverHull> hulls() const { return slice(arrays.hulls, ranges.hulls); }
     std::span<const glm::dvec2> outline(const ReceiverHull& receiver_hull) const {
         return slice(arrays.outlines, receiver_hull.outline);
@@ -67,9 +80,11 @@ struct LightSetsView {
 inline void ReceiverCasterSets::clear() {
     lights.clear();
     camera_frusta.clear();
+    nearest_surface_m.clear();
     receiver_items.clear();
     caster_items.clear();
     receiver_points_ws.clear();
+    error_points_ws.clear();
     hulls.clear();
     outlines.clear();
 }
@@ -81,6 +96,7 @@ struct SetScratch {
     std::vector<IndexRange> camera_candidates;  // range of `candidates` for each camera
     SplitScratch split;
     std::vector<glm::dvec3> points_ws;
+    std::vector<std::uint32_t> surfaces;  // candidates of one camera that are no air
     std::vector<glm::dvec2> points, polygon, clipped, outline;
     std::vector<std::uint32_t> items, mesh_starts;
 };

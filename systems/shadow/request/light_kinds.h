@@ -20,6 +20,7 @@ struct FitInput {
     std::span<const std::uint32_t> receivers;  // indices into scene.instances
     std::span<const std::uint32_t> casters;
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
+    std::span<const glm::dvec3> error_points_ws;     // ReceiverCasterSets::error_points_ws; not empty
     std::span<const ReceiverHull> hulls;             // receiver hulls; local light: one per light_frusta() item
     std::span<const glm::dvec3> frame_points_ws;     // array that ReceiverHull::receiver_points refers to
     float reach_texel = 0.5f;                        // E for borders: FilterSettings::border_texel

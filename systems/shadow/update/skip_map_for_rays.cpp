@@ -39,6 +39,7 @@ bool are_rays_cheaper(double pixels, double rays_per_pixel, const BoundsLoad& lo
 
 void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapCache& maps,
                         std::vector<UpdatePlan>& plans) {
+    if (scene.air.any) return;  // places in the air are looked up in maps
     for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
         const IndexRange range = inputs.fitted.lights[i].views;
         const LightItem& light = scene.lights[i];

@@ -64,7 +64,7 @@ DepthSpan seen_span(std::span<const glm::dvec3> points_ws, const ConsumerItem& c
 DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
     const ShadowFit fit = input.light.tuning.cascades.fit;
     DepthSpan span =
-        fit == ShadowFit::stable ? stable_span(input.scene, consumer) : seen_span(input.receiver_points_ws, consumer);
+        fit == ShadowFit::stable ? stable_span(input.scene, consumer) : seen_span(input.error_points_ws, consumer);
     span.lowest = std::max(span.lowest, std::max(consumer.near_m, span.highest * kLeastExtent));
     span.highest = std::max(span.highest, span.lowest);
     if (fit == ShadowFit::tight || !std::isfinite(span.highest)) return span;
@@ -111,6 +111,11 @@ ShadowTuning::Cascades with_ends_for_count(ShadowTuning::Cascades tuning, const 
     return tuning;
 }
 
+bool sees_air(const FitInput& input) {
+    const auto air = [&](std::uint32_t i) { return is_air(input.scene.instances[i]); };
+    return input.scene.air.any && std::any_of(input.receivers.begin(), input.receivers.end(), air);
+}
+
 CascadeSplitDistances wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
     const ShadowTuning::Cascades& tuning = input.light.tuning.cascades;
     const DepthSpan whole = whole_span(input, consumer);
@@ -146,6 +151,8 @@ CascadeSlices cascade_slices(const FitInput& input) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto holds_from = [&](const CascadeSplitDistances& e) { return i == 0 ? e[0] : fade_start(e, i, blend); };
         slices[i].holds_from_m = std::min(holds_from(ends.from_m), holds_from(ends.to_m));
+        slices[i].air_from_m =
+            i == 0 && sees_air(input) ? std::min(consumer.near_m, slices[i].holds_from_m) : slices[i].holds_from_m;
         slices[i].holds_to_m = std::max(ends.from_m[i + 1], ends.to_m[i + 1]);
         slices[i].fades_from_m = fade_start(ends.at_m, i + 1, blend);
         slices[i].serves_to_m = ends.at_m[i + 1];

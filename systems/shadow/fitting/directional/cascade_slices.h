@@ -9,6 +9,8 @@ namespace gnomon::shadow {
 /// View distances of one cascade, along the first camera's view, metres.
 struct CascadeSlice {
     double holds_from_m = 0.0, holds_to_m = 0.0;   // contained in its map: more than it serves
+    double air_from_m =
+        0.0;  // the same for air, which may begin nearer than the cascades' first end; else holds_from_m
     double fades_from_m = 0.0, serves_to_m = 0.0;  // here it starts to fade into the next; here the next serves alone
 };
 using CascadeSlices = std::array<CascadeSlice, kMaxCascades>;

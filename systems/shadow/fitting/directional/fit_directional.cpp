@@ -99,8 +99,8 @@ std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerI
     std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     points_ws.clear();
     receivers = 0;
-    if (!(slice.holds_from_m < slice.holds_to_m)) return {};
-    const math::Frustum frustum = consumer_frustum(consumer, slice.holds_from_m, slice.holds_to_m);
+    if (!(slice.air_from_m < slice.holds_to_m)) return {};
+    const math::Frustum frustum = consumer_frustum(consumer, slice.air_from_m, slice.holds_to_m);
     const SplitReceivers split =
         split_receivers(input.scene, input.receivers, {math::planes_of(frustum)}, input.scratch.split);
     points_ws.assign(split.corners_ws_m.begin(), split.corners_ws_m.end());
@@ -144,7 +144,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
         auto receivers = static_cast<std::uint32_t>(input.receivers.size());
         const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input, receivers);
         OrthographicBox box;
-        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws, stepping};
+        const CascadeInput cascade{input, basis, i, slice.air_from_m, slice.holds_to_m, of_all, points_ws, stepping};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
         // Maps with true distances contain the casters already.
         if (filter_row(input.request.map.filter).moments && !needs_distances(input.request.map.filtering))

@@ -53,6 +53,13 @@ TEST(CommandLine, ABudgetIsANumberAboveNothing) {
         EXPECT_FALSE(parse({"--shadow-ms", bad})) << bad;
 }
 
+TEST(CommandLine, MistIsAShareOfLightPerMetre) {
+    EXPECT_EQ(parse({}).value().mist_per_m, 0.0f);
+    EXPECT_EQ(parse({"--mist", "0.06"}).value().mist_per_m, 0.06f);
+    EXPECT_EQ(parse({"--mist=10"}).value().mist_per_m, 10.0f);
+    for (const char* bad : {"-0.1", "10.1", "nan", "", "thick"}) EXPECT_FALSE(parse({"--mist", bad})) << bad;
+}
+
 TEST(CommandLine, TheTruthIsAPictureAndItsLightGoesWithItAlone) {
     const CommandLine l = parse({"--truth", "t.png", "--truth-light", "sun"}).value();
     EXPECT_EQ(l.truth, "t.png");
