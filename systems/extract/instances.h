@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-/// Fills SceneSnapshot::instances and its tree from entities with a WorldTransform and a MeshRef or FogVolume. All of it writes what
-/// changes as snapshot.version.
+/// Fills SceneSnapshot::instances and its tree from entities with a WorldTransform and a MeshRef or FogVolume. All of
+/// it writes what changes as snapshot.version.
 class InstanceExtractor {
 public:
     /// Returns true if an instance shows another mesh than it did, or if a dropped entity may have its mesh now.
@@ -23,9 +23,9 @@ public:
     void list(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
     enum class Splice : std::uint8_t { nothing, done, impossible };
-    /// Takes entities in or out that gained or lost a MeshRef, FogVolume or WorldTransform, possibly repeated, in place.
-    /// `impossible`: nothing is changed and list() is needed: entities that cannot be placed are among them, or they
-    /// are a large part of the scene.
+    /// Takes entities in or out that gained or lost a MeshRef, FogVolume or WorldTransform, possibly repeated, in
+    /// place. `impossible`: nothing is changed and list() is needed: entities that cannot be placed are among them, or
+    /// they are a large part of the scene.
     Splice splice(const ecs::Registry& registry, const assets::MeshLibrary& library,
                   std::span<const ecs::Entity> came_or_went, SceneSnapshot& snapshot);
 

@@ -79,17 +79,30 @@ TEST_F(FogExtractTest, MovesAndChangesInPlace) {
 TEST_F(FogExtractTest, ComesAndGoes) {
     const std::size_t surfaces = [&] { return update(), snapshot.instances.size(); }();
     EXPECT_FALSE(snapshot.air.any);
+    // Few of many are taken in and out in place.
+    for (int i = 0; i < 12; ++i) world.add_mesh(kBox, {2.0 * i, 0.5, 0.0}, true);
+    update();
     const ecs::Entity fog = add_fog();
     update();
-    EXPECT_THAT(snapshot.instances, SizeIs(surfaces + 1));
+    expect_as_if_made_anew("come");
+    EXPECT_THAT(snapshot.instances, SizeIs(surfaces + 13));
+    ASSERT_THAT(snapshot.air.fogs, SizeIs(1));
+    EXPECT_EQ(&snapshot.instances[snapshot.air.fogs[0].instance], air());
     world.registry.remove<FogVolume>(fog);
     update();
+    expect_as_if_made_anew("gone");
     EXPECT_EQ(air(), nullptr);
     EXPECT_FALSE(snapshot.air.any);
     EXPECT_THAT(snapshot.air.fogs, IsEmpty());
     world.registry.emplace<FogVolume>(fog);
     update();
+    expect_as_if_made_anew("come again");
     EXPECT_NE(air(), nullptr);
+    // A box before it in the list goes: what it shows is that of the same box of fog.
+    world.registry.destroy(stage.box);
+    update();
+    expect_as_if_made_anew("another gone");
+    EXPECT_EQ(&snapshot.instances[snapshot.air.fogs.at(0).instance], air());
     world.registry.destroy(fog);
     update();
     EXPECT_EQ(air(), nullptr);
@@ -134,6 +147,7 @@ TEST_F(FogExtractTest, OfAnEntityWithAMeshIsDropped) {
     EXPECT_THAT(snapshot.dropped, ElementsAre(Field(&DroppedEntity::reason, DropReason::absurd_fog)));
     world.registry.remove<MeshRef>(stage.box);
     update();
+    expect_as_if_made_anew("without its mesh");
     EXPECT_NE(air(), nullptr);
     EXPECT_THAT(snapshot.dropped, IsEmpty());
 }
