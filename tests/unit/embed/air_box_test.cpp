@@ -13,13 +13,13 @@
 namespace gnomon::embed {
 namespace {
 
-constexpr std::array<glm::vec3, 3> kCorners{glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+constexpr std::array<glm::vec3, 3> kOneTriangle{glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
 constexpr std::array<std::uint32_t, 3> kFace{0, 1, 2};
 
 class AirBox : public ::testing::Test {
 protected:
     void SetUp() override {
-        mesh = store.add_mesh({.positions_m = kCorners, .indices = kFace}).value();
+        mesh = store.add_mesh({.positions_m = kOneTriangle, .indices = kFace}).value();
         for (int i = 0; i < 12; ++i) casters.push_back(store.add_caster({.mesh = mesh}));
         updated();
     }

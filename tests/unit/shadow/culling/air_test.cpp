@@ -12,7 +12,7 @@
 namespace gnomon::shadow {
 namespace {
 
-constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+constexpr LightKind kAirKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
 /// Makes every receiver that does not cast a box of air.
 void fill_with_air(SceneSnapshot& scene) {
@@ -65,7 +65,7 @@ TEST(Air, LiesInMapsThatHoldWhateverDarkensIt) {
     RandomScene random(print_seed());
     Counts all, without;
     for (int round = 0; round < 600; ++round) {
-        SceneSnapshot scene = random.scene(kKinds[round % 3]);
+        SceneSnapshot scene = random.scene(kAirKinds[round % 3]);
         fill_with_air(scene);
         // A camera among the boxes: air begins at its near plane.
         if (round % 2 == 0) scene.consumers[0].position_ws_m = random.vector(4.0);
@@ -120,7 +120,7 @@ double largest_error_px(const ShadowFrame& frame) {
 }
 
 TEST(Air, AroundACameraAsksForNoTexelsAsFineAsItsNearPlane) {
-    for (const LightKind kind : kKinds) {
+    for (const LightKind kind : kAirKinds) {
         SceneSnapshot scene = around_the_camera(kind, kNoMesh), as_surface = around_the_camera(kind, 0);
         for (SceneSnapshot* s : {&scene, &as_surface}) s->lights[0].shadow.resolution_px = 1024;
         const double air_px = largest_error_px(fitted(scene)), surface_px = largest_error_px(fitted(as_surface));
@@ -147,7 +147,7 @@ TEST(Air, AsksForAsMuchAsItsNearestPartThatCounts) {
 TEST(Air, LeavesPointsOfOtherScenesAlone) {
     RandomScene random(print_seed());
     for (int round = 0; round < 30; ++round) {
-        const SceneSnapshot scene = random.scene(kKinds[round % 3]);
+        const SceneSnapshot scene = random.scene(kAirKinds[round % 3]);
         const ShadowFrame frame = fitted(scene);
         EXPECT_TRUE(frame.sets.error_points_ws.empty());
         EXPECT_TRUE(frame.sets.nearest_surface_m.empty());
