@@ -28,13 +28,13 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_triangles));
     constexpr std::size_t kMaskedOrNot = 2;
     // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an
-    // output; blended surfaces, catchers, verdicts and rays have their own, masked or not.
+    // output; blended surfaces, catchers, fog, verdicts and rays have their own, masked or not.
     const std::size_t by_rays = (kPlain + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters) + kArea;
-    const std::size_t with_sheets = 2 * kinds + 4 * by_rays;
-    constexpr std::size_t kOutputs = 4, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
+    const std::size_t with_sheets = 2 * kinds + 5 * by_rays;
+    constexpr std::size_t kOutputs = 5, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
     // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not. Catchers, coloured or not, and
-    // their shares. Luminance, and tone curve with a background or without.
-    constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3;
+    // their shares. Luminance, and tone curve with a background or without. What fog takes.
+    constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3 + 1;
     // Those by a pixel's footprint, too, and those of masked casters.
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays +
                              kAreaRows + kAreaPrefiltered;
