@@ -14,11 +14,7 @@ namespace {
 using Number = long double;
 using Vec = glm::vec<3, Number, glm::defaultp>;
 
-#ifdef GNOMON_SANITIZED
-constexpr int kRays = 150;  // the same code for each
-#else
 constexpr int kRays = 500;
-#endif
 constexpr std::size_t kMostPoints = 400;  // per light and kind: every one is compared with every triangle
 constexpr Number kSlack = 1e-12L;         // of long double against what is decided: relative
 
