@@ -260,11 +260,16 @@ void SceneStore::note_casters(std::uint32_t first) {
         const ecs::Entity entity = snapshot_.instances[i].entity;
         casters_.find({entity.index, entity.version})->instance = i;
     }
-    snapshot_.any_by_depth = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
-                                         [](const InstanceItem& item) { return item.drawable.by_depth; });
-    snapshot_.air.any = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(), is_air);
-    snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
-                                         [](const InstanceItem& item) { return item.drawable.drawn; });
+    // What the list had not and nothing added has, it has not now: then no instance is looked at.
+    const auto holds = [&](bool before, const auto& is) {
+        const bool may_hold = first == 0 || before || std::any_of(splice_.added.begin(), splice_.added.end(), is);
+        return may_hold && std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(), is);
+    };
+    snapshot_.any_by_depth =
+        holds(snapshot_.any_by_depth, [](const InstanceItem& item) { return item.drawable.by_depth; });
+    snapshot_.any_drawable =
+        holds(snapshot_.any_drawable, [](const InstanceItem& item) { return item.drawable.drawn; });
+    snapshot_.air.any = holds(snapshot_.air.any, is_air);
     snapshot_.gpu_slot_count = casters_.bound();
     if (std::exchange(shapes_version_, library_.version) == library_.version) return;
     snapshot_.shapes.clear();

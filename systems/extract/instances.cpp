@@ -247,7 +247,8 @@ InstanceExtractor::Splice InstanceExtractor::splice(const ecs::Registry& registr
     if (std::exchange(shapes_version_, library.version) != library.version) list_shapes(library, snapshot);
     note_places(splice_instances(snapshot, splice_), snapshot);
     note_bent(snapshot);
-    list_fogs(registry, snapshot);
+    const bool may_have_air = snapshot.air.any || std::any_of(splice_.added.begin(), splice_.added.end(), is_air);
+    if (may_have_air) list_fogs(registry, snapshot);
     return Splice::done;
 }
 
