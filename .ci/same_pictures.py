@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Compares what two builds of the game draw: pictures, visibilities and counts have to be equal to the byte.
 
-usage: same_pictures.py OLD NEW [--data FOLDER] [--scenes COUNT] [--only TEXT]
+usage: same_pictures.py OLD NEW [--data FOLDER] [--scenes COUNT] [--only TEXT] [--without ENDING]...
   OLD, NEW  executables of the game
   FOLDER    glTF files (default: ../shared/data); COUNT of them are taken, evenly spread over those that OLD loads
   TEXT      runs only cases whose name holds it
+  ENDING    leaves statistics out whose key ends so, as times always are
 Compared are the PNG, every visibility, and of the last frame's statistics all that is no time, where both have it. A case
 that either cannot draw is not equal. The last line says how many cases are. Exit status: 0 if all are.
 """
@@ -19,6 +20,7 @@ from pathlib import Path
 
 SIZE = "320x180"
 TIMEOUT_S = 300
+TIMES = ("_us", "_ns", "_ms")
 FILTERS = ["hard", "hardware_2x2", "pcf_grid", "pcf_bilinear", "sharp_4x4", "poisson", "poisson_rotated",
            "poisson_stratified", "cube_grid", "cube_directions", "pcss", "exponential", "vsm", "evsm2", "evsm4", "moments",
            "pcss_moments", "triangles", "exact", "exact_soft"]
@@ -60,22 +62,22 @@ def run(game, arguments, folder):
     return done.returncode, files, frames[-1] if frames else {}
 
 
-def differences(old, new, where=""):
-    """Places of two statistics that differ, of those that both have; times are left out."""
+def differences(old, new, without, where=""):
+    """Places of two statistics that differ, of those that both have and whose key does not end with one of `without`."""
     if isinstance(old, dict) and isinstance(new, dict):
         for key in old.keys() & new.keys():
-            if not key.endswith(("_us", "_ns", "_ms")):
-                yield from differences(old[key], new[key], f"{where}/{key}")
+            if not key.endswith(without):
+                yield from differences(old[key], new[key], without, f"{where}/{key}")
     elif isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
         for i, (a, b) in enumerate(zip(old, new)):
-            yield from differences(a, b, f"{where}/{i}")
+            yield from differences(a, b, without, f"{where}/{i}")
     elif old != new:
         yield f"{where}: {old} != {new}"
 
 
 def compare(job):
     """(name, what differs) of one case."""
-    name, arguments, old_game, new_game = job
+    name, arguments, old_game, new_game, without = job
     with tempfile.TemporaryDirectory() as folder:
         results = []
         for which, game in (("old", old_game), ("new", new_game)):
@@ -87,7 +89,7 @@ def compare(job):
         return name, [f"OLD ends with {old_status}, NEW with {new_status}"]
     found = [f"{file} differs" for file in sorted(old_files.keys() | new_files.keys())
              if old_files.get(file) != new_files.get(file)]
-    found += differences(old_stats, new_stats)
+    found += differences(old_stats, new_stats, without)
     return name, found if "picture.png" in old_files else found + ["no picture"]
 
 
@@ -112,6 +114,7 @@ def main(arguments):
     parser.add_argument("--data", type=Path, default=Path(__file__).resolve().parent.parent.parent / "shared" / "data")
     parser.add_argument("--scenes", type=int, default=24)
     parser.add_argument("--only", default="")
+    parser.add_argument("--without", action="append", default=[])
     options = parser.parse_args(arguments)
     cases = list(cases_of_built_in_scenes())
     if options.data.is_dir():
@@ -119,7 +122,8 @@ def main(arguments):
             cases.append((str(path.relative_to(options.data)), ["--scene", str(path)]))
     else:
         print(f"no files of {options.data}: it is not there")
-    jobs = [(name, arguments, options.old, options.new) for name, arguments in cases if options.only in name]
+    without = (*TIMES, *options.without)
+    jobs = [(name, arguments, options.old, options.new, without) for name, arguments in cases if options.only in name]
     equal = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for name, found in pool.map(compare, jobs):

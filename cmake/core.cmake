@@ -17,6 +17,11 @@ set(GNOMON_CORE_SOURCES
   engine/mesh/mesh_shape.cpp
   engine/mesh/mesh_topology.cpp
   engine/mesh/mesh_weld.cpp
+  engine/mesh/proxies/add_proxies.cpp
+  engine/mesh/proxies/coarser_surface.cpp
+  engine/mesh/proxies/edge_collapse.cpp
+  engine/mesh/proxies/surface_distance.cpp
+  engine/mesh/proxies/triangle_tree.cpp
   engine/mesh/surface_edges.cpp
   systems/extract/camera_view.cpp
   systems/extract/flat_range.cpp
@@ -42,6 +47,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/projection/screen_bounds.cpp
   systems/shadow/projection/spot_cube_transition.cpp
   systems/shadow/projection/sun_viewpoint.cpp
+  systems/shadow/frame/instance_layers.cpp
   systems/shadow/request/accuracy_target.cpp
   systems/shadow/request/decide_requests.cpp
   systems/shadow/request/filter_choice.cpp
@@ -49,6 +55,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/request/filter_table.cpp
   systems/shadow/request/light_kinds.cpp
   systems/shadow/request/map_textures.cpp
+  systems/shadow/request/triangle_references.cpp
   systems/shadow/request/occluder_pyramid.cpp
   systems/shadow/request/prefilter_settings.cpp
   systems/shadow/request/ray_limit.cpp
@@ -60,6 +67,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/culling/static_dynamic_casters.cpp
   systems/shadow/culling/swept_volume.cpp
   systems/shadow/culling/view_casters.cpp
+  systems/shadow/fitting/choose_proxies.cpp
   systems/shadow/fitting/directional/cascade_slices.cpp
   systems/shadow/fitting/directional/caster_depth_range.cpp
   systems/shadow/fitting/directional/fit_directional.cpp

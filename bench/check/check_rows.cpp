@@ -33,7 +33,7 @@ CheckRowSetup setup_of(const shadow::LightKindRow& kind, const shadow::FilterRow
     setup.filter = &filter;
     setup.name = std::string(kind.name) + " " + std::string(filter.name);
     setup.settings = {"filter=" + std::string(filter.name), kMapSetting};
-    if (filter.width == shadow::FilterWidth::source)
+    if (filter.width == shadow::FilterWidth::source && !light_facts(kind.kind).area())
         setup.settings.insert(setup.settings.end(), kSource.begin(), kSource.end());
     return setup;
 }
@@ -113,9 +113,11 @@ std::vector<CheckRowSetup> check_row_setups() {
     std::vector<CheckRowSetup> setups;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
-            // Maps of area lights are those of a point; the scene of the check has none.
-            if (light_facts(kind.kind).area()) continue;
-            if (kind.texture != gl::TextureKind::cube) {
+            const bool area = light_facts(kind.kind).area();
+            // Filters that see the middle alone look an area light up as a point.
+            if (area && filter.width != shadow::FilterWidth::source) continue;
+            // Cubes of area lights are drawn as those of a point.
+            if (area || kind.texture != gl::TextureKind::cube) {
                 setups.push_back(setup_of(kind, filter));
                 continue;
             }

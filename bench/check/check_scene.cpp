@@ -72,8 +72,8 @@ void add_things(assets::SceneData& scene) {
            1.1, {0.0, 1.0, 0.0});
 }
 
-void add_light(assets::SceneData& scene, const char* name, assets::LightType type, float intensity,
-               const glm::dvec3& at_m, const glm::dvec3& back) {
+assets::LightData& add_light(assets::SceneData& scene, const char* name, assets::LightType type, float intensity,
+                             const glm::dvec3& at_m, const glm::dvec3& back) {
     assets::LightData& light = scene.lights.emplace_back();
     light.name = name;
     light.type = type;
@@ -82,6 +82,20 @@ void add_light(assets::SceneData& scene, const char* name, assets::LightType typ
     assets::Node& node = add_node(scene, name, at_m);
     node.rotation = glm::quat_cast(math::basis_from_back(back));
     node.light = static_cast<std::int32_t>(scene.lights.size() - 1);
+    return light;
+}
+
+/// Sources of a hand's width around the place of the spot light, where no caster reaches into them.
+void add_area_lights(assets::SceneData& scene) {
+    const glm::dvec3 at_m{2.7, 3.4, 2.2}, back{3.6, 3.6, 3.2};
+    assets::LightData& rectangle = add_light(scene, "rectangle", assets::LightType::rectangle, 4000.0f, at_m, back);
+    rectangle.width_m = 0.3f;
+    rectangle.height_m = 0.2f;
+    add_light(scene, "disc", assets::LightType::disc, 4000.0f, at_m, back).radius_m = 0.12f;
+    add_light(scene, "sphere", assets::LightType::sphere, 4000.0f, at_m, back).radius_m = 0.12f;
+    assets::LightData& tube = add_light(scene, "tube", assets::LightType::tube, 4000.0f, at_m, back);
+    tube.width_m = 0.3f;
+    tube.radius_m = 0.03f;
 }
 
 }  // namespace
@@ -97,6 +111,7 @@ assets::SceneData check_scene() {
     add_things(scene);
     add_light(scene, "sun", assets::LightType::directional, 3.0f, {}, {0.55, 1.0, 0.62});
     add_light(scene, "spot", assets::LightType::spot, 400.0f, {2.7, 3.9, 2.2}, {3.6, 3.6, 3.2});
+    add_area_lights(scene);
     add_light(scene, "point", assets::LightType::point, 200.0f, {-0.1, 1.7, 0.1}, {0.0, 0.0, 1.0});
     return scene;
 }

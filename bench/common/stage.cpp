@@ -8,6 +8,7 @@
 #include "gnomon/light.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/scene/scene_proxies.h"
 
 namespace gnomon::bench {
 
@@ -42,6 +43,7 @@ std::optional<Error> Stage::spawn(const StageOptions& options, assets::SceneData
     game::set_time(spawned_, time_s_, world_);
     for (const std::string& setting : options.settings)
         if (auto error = apply_setting(setting)) return error;
+    game::provide_proxies(spawned_, world_, library_);
     for (const game::NamedEntity& light : spawned_.lights)
         if (const auto opened = game::settings_of(world_, light.entity)) opened_.emplace_back(light.entity, *opened);
     if (!options.camera) return std::nullopt;

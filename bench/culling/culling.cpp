@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/common/box_field_scene.h"
+#include "bench/culling/city_time.h"
 #include "bench/culling/fit_time.h"
 #include "bench/culling/list_time.h"
 #include "bench/culling/update_time.h"
@@ -150,6 +151,7 @@ void run_culling(const std::string& filter) {
     if (std::string_view("one_fit").find(filter) != std::string_view::npos) std::fputs(one_fit_table().c_str(), stdout);
     if (std::string_view("update").find(filter) != std::string_view::npos)
         std::fputs(update_cost_table().c_str(), stdout);
+    if (std::string_view("city").find(filter) != std::string_view::npos) std::fputs(city_time_table().c_str(), stdout);
 }
 
 }  // namespace gnomon::bench

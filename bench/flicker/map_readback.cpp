@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20240229;
 constexpr std::uint32_t kTriesPerPoint = 4;  // rays may end in the sky, or on what receives no shadow
+constexpr std::uint32_t kNoTriangle = 0xffffffffu;  // as shaders/shadow/filters/triangles/mesh_walk.glsl
 constexpr std::uint32_t kProbes = 2048;      // rays for the median distance
 
 glm::dvec2 random_place(std::mt19937_64& random) {
@@ -61,7 +62,7 @@ bool ShadowFrames::read_layer(const shadow::ShadowView& view, const shadow::MapA
     const std::size_t layer_texels = std::size_t{assigned.size_px} * assigned.size_px;
     const std::size_t start = view.layer * layer_texels, end = start + layer_texels;
     if (map.texture != assigned.texture || map.copy.size_px != assigned.size_px)
-        map = {assigned.texture, {view.projection == shadow::ViewProjection::cube_face, assigned.size_px, {}, {}}};
+        map = {assigned.texture, {view.projection == shadow::ViewProjection::cube_face, assigned.size_px, {}, {}}, {}};
     const auto read = [&](gl::TextureHandle texture, auto& texels) {
         const bool missing = texels.size() < end;
         if (reuse && !missing) return true;
@@ -69,8 +70,17 @@ bool ShadowFrames::read_layer(const shadow::ShadowView& view, const shadow::MapA
         const auto layer = std::span(texels).subspan(start, layer_texels);
         return stage_.device().read_texture(texture, view.layer, std::as_writable_bytes(layer));
     };
-    return read(assigned.texture, map.copy.texels) &&
-           (!assigned.triangles || read(assigned.triangles, map.copy.triangles));
+    if (!read(assigned.texture, map.copy.texels)) return false;
+    if (!assigned.triangles) return true;
+    if (assigned.triangle_bits == 0) return read(assigned.triangles, map.copy.triangles);
+    if (!read(assigned.triangles, map.packed_triangles)) return false;
+    map.copy.triangles.resize(map.packed_triangles.size());
+    const std::uint32_t bits = assigned.triangle_bits, none = (1u << bits) - 1u;
+    for (std::size_t i = start; i < end; ++i) {
+        const std::uint32_t number = map.packed_triangles[i], triangle = number & none;
+        map.copy.triangles[i] = {number >> bits, triangle == none ? kNoTriangle : triangle};
+    }
+    return true;
 }
 
 std::optional<Error> ShadowFrames::read_maps() {

@@ -40,6 +40,7 @@ private:
     struct ReadMap {
         gl::TextureHandle texture{};
         MapCopy copy;
+        std::vector<std::uint32_t> packed_triangles;  // as copy.triangles, where texels name theirs by one number
     };
     std::optional<Error> read_maps();
     bool read_layer(const shadow::ShadowView& view, const shadow::MapAssignment& assigned, bool reuse, ReadMap& map);

@@ -43,9 +43,9 @@ struct uvec3 {
 };
 struct uvec4 {
     uint x = 0, y = 0, z = 0, w = 0;
-    uvec4() = default;
-    explicit uvec4(uint s) : x(s), y(s), z(s), w(s) {}
-    uvec4(uint x_, uint y_, uint z_, uint w_) : x(x_), y(y_), z(z_), w(w_) {}
+    constexpr uvec4() = default;
+    constexpr explicit uvec4(uint s) : x(s), y(s), z(s), w(s) {}
+    constexpr uvec4(uint x_, uint y_, uint z_, uint w_) : x(x_), y(y_), z(z_), w(w_) {}
     uint& operator[](int i) { return i == 0 ? x : (i == 1 ? y : (i == 2 ? z : w)); }
     uint operator[](int i) const { return i == 0 ? x : (i == 1 ? y : (i == 2 ? z : w)); }
     uvec2 xy_() const { return {x, y}; }
@@ -201,6 +201,10 @@ inline double smoothstep(double low, double high, double a) {
 }
 
 template <Vector V>
+V sqrt(const V& a) {
+    return each(a, [](double p) { return std::sqrt(p); });
+}
+template <Vector V>
 V abs(const V& a) {
     return each(a, [](double p) { return std::abs(p); });
 }
@@ -303,6 +307,9 @@ V isinf(const V& a) {
     return each(a, [](double p) { return std::isinf(p) ? 1.0 : 0.0; });
 }
 inline double uintBitsToFloat(uint bits) { return static_cast<double>(std::bit_cast<float>(bits)); }
+inline int bitCount(uint bits) { return std::popcount(bits); }
+inline int findLSB(uint bits) { return bits != 0 ? std::countr_zero(bits) : -1; }
+inline bvec4 equal(const uvec4& a, const uvec4& b) { return {{a.x == b.x, a.y == b.y, a.z == b.z, a.w == b.w}}; }
 inline bool any(const bvec4& a) { return a[0] || a[1] || a[2] || a[3]; }
 
 struct mat3 {

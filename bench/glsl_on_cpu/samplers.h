@@ -205,6 +205,15 @@ inline uvec4 textureGather(const usamplerCube& s, const vec3& at, int component)
     return gathered(s, static_cast<int>(face.face), floor(face.texel + 0.5), component);
 }
 
+/// Returns what the texel shows; beyond the map, nothing.
+inline uvec4 textureLod(const usampler2DArray& s, const vec3& at, double) {
+    ++s.trace->taps;
+    const vec2 texel = floor(at.xy_() * static_cast<double>(s.map->size_px));
+    if (min(texel.x, texel.y) < 0.0 || max(texel.x, texel.y) >= s.map->size_px) return {};
+    const uvec2 shown = s.map->triangle(static_cast<int>(at.z), static_cast<uint>(texel.x), static_cast<uint>(texel.y));
+    return {shown.x, shown.y, 0, 0};
+}
+
 inline uvec4 textureLod(const usamplerCube& s, const vec3& at, double) {
     ++s.trace->taps;
     const OnFace face = on_face(at, s.map->size_px);

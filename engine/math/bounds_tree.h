@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -64,6 +66,59 @@ public:
         }
     }
 
+    /// Does the same with tests that parts of a box inherit. classify(box, open) -> Overlap clears the bits of tests
+    /// that no part of the box needs, in its copy of what the box around it left. `open`: the tests at the root.
+    template <class Classify, class Visit>
+    void visit(OpenTests open, Classify&& classify, Visit&& visit) const {
+        struct Around {
+            std::uint32_t end;  // first node after the subtree
+            OpenTests open;
+        };
+        std::array<Around, kMostDepth + 1> around;
+        std::size_t depth = 0;
+        around[0] = {static_cast<std::uint32_t>(nodes_.size()), open};
+        for (std::uint32_t n = 0; n < nodes_.size();) {
+            while (n >= around[depth].end) --depth;
+            const Node& node = nodes_[n];
+            OpenTests left = around[depth].open;
+            const Overlap overlap = classify(node.box(), left);
+            if (overlap == Overlap::inside) {
+                for (std::uint32_t s = first_slot(n), end = end_slot(n); s < end; ++s)
+                    if (!is_empty(items_[s].box)) visit(items_[s].item);
+            } else if (overlap == Overlap::partial) {
+                for (std::uint32_t s = node.first_slot(); s < node.first_slot() + node.slots(); ++s) {
+                    OpenTests of_item = left;
+                    if (items_[s].item != kNone && classify(items_[s].box, of_item) != Overlap::outside)
+                        visit(items_[s].item);
+                }
+                if (node.leaf == 0) around[++depth] = {node.skip, left};
+            }
+            n = overlap == Overlap::partial ? n + 1 : node.skip;
+        }
+    }
+
+    /// Returns how many numbers lowest_by_number() gives to nodes and items, from 0 on.
+    std::size_t numbers() const { return nodes_.size() + items_.size(); }
+
+    /// Returns the lowest value of any item, as lowest(), with rank(box, number) and value(item, lowest, number).
+    /// Callers can keep by number what they know of a box. Numbers stay until the tree changes.
+    template <class Rank, class Value>
+    double lowest_by_number(Rank&& rank, Value&& value) const {
+        double lowest = std::numeric_limits<double>::infinity();
+        const auto rank_of = [&](const Node& node) {
+            return rank(node.box(), static_cast<std::uint32_t>(&node - nodes_.data()));
+        };
+        const auto first = static_cast<std::uint32_t>(nodes_.size());
+        for (std::uint32_t root = 0; root < nodes_.size(); root = nodes_[root].skip)
+            lowest = lowest_in_tree(nodes_, root, lowest, rank_of, [&](const Node& leaf, double least) {
+                for (std::uint32_t s = leaf.first_slot(); s < leaf.first_slot() + leaf.slots(); ++s)
+                    if (items_[s].item != kNone && rank(items_[s].box, first + s) < least)
+                        least = value(items_[s].item, least, first + s);
+                return least;
+            });
+        return lowest;
+    }
+
     /// Returns the lowest value of any item; infinity without items. rank(box) -> double is a lower bound for all items
     /// in the box. value(item, lowest) -> double is the item's value, or `lowest` where that is not larger.
     template <class Rank, class Value>
@@ -102,6 +157,7 @@ private:
     }
 
     static constexpr std::uint32_t kNone = 0xffffffffu;
+    static constexpr std::size_t kMostDepth = 29;  // halving 2^28 items leaves one after 28 steps
 
     std::vector<Node> nodes_;             // tree after tree
     std::vector<Tree> trees_;             // by rising node and slot

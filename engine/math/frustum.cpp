@@ -1,6 +1,7 @@
 #include "engine/math/frustum.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -169,6 +170,28 @@ Overlap overlap(std::span<const Plane> planes, const Aabb& box) {
         // NaN (an infinite box, a broken plane) decides nothing: the box stays.
         if (highest.x + highest.y + highest.z + plane.offset < -tolerance) return Overlap::outside;
         if (!(lowest.x + lowest.y + lowest.z + plane.offset >= -tolerance)) result = Overlap::partial;
+    }
+    return result;
+}
+
+Overlap overlap(std::span<const Plane> planes, const Aabb& box, OpenTests& open) {
+    if (is_empty(box)) return Overlap::outside;
+    Overlap result = Overlap::inside;
+    const OpenTests mine = open_tests(planes.size());
+    for (OpenTests left = open & mine; left != 0; left &= left - 1) {
+        const Plane& plane = planes[static_cast<std::size_t>(std::countr_zero(left))];
+        const glm::dvec3 at_min = plane.normal * box.min, at_max = plane.normal * box.max;
+        const glm::dvec3 lowest = glm::min(at_min, at_max);
+        const double least = lowest.x + lowest.y + lowest.z + plane.offset;
+        if (least >= 0.0) {
+            open &= ~(left & -left);
+            continue;
+        }
+        const glm::dvec3 highest = glm::max(at_min, at_max);
+        const double most = highest.x + highest.y + highest.z + plane.offset;
+        const double tolerance = kRounding * magnitude(plane, glm::max(glm::abs(box.min), glm::abs(box.max)));
+        if (most < -tolerance) return Overlap::outside;
+        if (!(least >= -tolerance)) result = Overlap::partial;
     }
     return result;
 }

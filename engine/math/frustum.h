@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -40,6 +41,15 @@ inline std::span<const Plane> planes_of(const Frustum& f) { return {f.planes, f.
 /// plane, or empty. `inside`: wholly inside all planes. NaN planes decide nothing.
 enum class Overlap : std::uint8_t { outside, partial, inside };
 Overlap overlap(std::span<const Plane> planes, const Aabb& box);
+
+/// Bits of the tests that may still cut a box on the way down a tree; 0: all of the box is inside.
+using OpenTests = std::uint64_t;
+/// Returns the bits of all `count` tests, at most 64.
+constexpr OpenTests open_tests(std::size_t count) { return count < 64 ? (OpenTests{1} << count) - 1 : ~OpenTests{0}; }
+
+/// Does the same with the planes in `open` alone, at most 64: bit i is plane i. Clears the bits of planes that all
+/// boxes within this one lie inside: sums of rounded products grow with the box's corners.
+Overlap overlap(std::span<const Plane> planes, const Aabb& box, OpenTests& open);
 
 /// Returns false only if the box is empty or lies wholly outside one plane. Conservative, also against rounding and NaN
 /// planes.

@@ -111,13 +111,19 @@ void InnerHull::build(std::span<const glm::dvec3> points) {
     }
 }
 
-bool InnerHull::contains(const Aabb& box) const {
+bool InnerHull::contains(const Aabb& box, std::size_t& last_facet) const {
     if (normals_.empty() || is_empty(box)) return false;
     if (glm::any(glm::lessThan(box.min, bounds_.min)) || glm::any(glm::greaterThan(box.max, bounds_.max))) return false;
     const glm::dvec3 middle = centre(box), half = half_extent(box);
-    for (std::size_t i = 0; i < normals_.size(); ++i) {
+    const auto is_beyond = [&](std::size_t i) {
         const glm::dvec3& n = normals_[i];
-        if (!(glm::dot(n, middle) + glm::dot(glm::abs(n), half) <= offsets_[i])) return false;
+        return !(glm::dot(n, middle) + glm::dot(glm::abs(n), half) <= offsets_[i]);
+    };
+    if (last_facet < normals_.size() && is_beyond(last_facet)) return false;
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+        if (!is_beyond(i)) continue;
+        last_facet = i;
+        return false;
     }
     return true;
 }

@@ -19,8 +19,13 @@ public:
     /// Builds the hull of the points, one after the other (Edelsbrunner 1987, section 8.4). It
     /// contains no box if the points lie in a plane, up to rounding, or if a coordinate is not finite.
     void build(std::span<const glm::dvec3> points);
-    /// Returns whether the whole box lies within, borders included. An empty box does not.
-    bool contains(const Aabb& box) const;
+    /// Returns whether the whole box lies within, borders included. An empty box does not. `last_facet`: the facet
+    /// to test first, any number. Becomes the facet that the box lies beyond; near boxes often share it.
+    bool contains(const Aabb& box, std::size_t& last_facet) const;
+    bool contains(const Aabb& box) const {
+        std::size_t none = 0;
+        return contains(box, none);
+    }
     /// Returns the outward normals of the facets, of any length; empty: it contains no box.
     std::span<const glm::dvec3> normals() const { return normals_; }
 

@@ -60,11 +60,15 @@ struct Label {
 
 namespace gnomon::shadow {
 
-/// Limits on all shadows together (docs/how-to/budgets.md). 0, negative or NaN: no limit.
+/// Limits on all shadows together (docs/how-to/budgets.md).
 struct ShadowBudget {
-    std::uint64_t bytes = 0;  // GPU memory of all lights: maps, triangles, moments, copies
-    float gpu_ms = 0.0f;      // GPU time per frame for drawing maps and looking them up
-    std::uint64_t rays = 0;   // predicted rays per frame of lights that use rays (docs/how-to/budgets.md)
+    static constexpr std::uint64_t kUnlimited = ~std::uint64_t{0};  // for `bytes`
+    /// GPU memory of all lights: maps, triangles, moments, copies. 0: 256 MB, and in proportion more for pictures with
+    /// more pixels than 1920 x 1080. Lights with a given size or accuracy then come on top. Raise it where lights
+    /// report budget_shrunk and the device has the memory.
+    std::uint64_t bytes = 0;
+    float gpu_ms = 0.0f;     // GPU time per frame for drawing maps and looking them up; 0, negative or NaN: no limit
+    std::uint64_t rays = 0;  // predicted rays per frame of lights that use rays; 0: no limit
     bool operator==(const ShadowBudget&) const = default;
 };
 
@@ -134,9 +138,11 @@ struct LightCounts {
     std::uint32_t views_drawn = 0;        // drawn in this frame
     std::uint64_t texels = 0;             // size of its map
     std::uint64_t bytes = 0;              // its memory, kept visibility included
+    BytesByPart parts;                    // the same by part
     std::uint32_t draws = 0, clears = 0;  // draws of meshes, or parts of them, and clears of maps in this frame
     std::uint32_t draw_commands = 0;      // commands that make those draws; one makes all that need the same state
     std::uint64_t triangles = 0;          // drawn into maps in this frame
+    std::uint64_t full_triangles = 0;     // the same without proxies
     std::uint32_t by_depth = 0;           // casters without triangles, where its filter reads those of others
 };
 

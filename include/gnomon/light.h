@@ -59,8 +59,8 @@ struct Light {
     /// Half angle at which a spot's light ends, radians, above 0, at most pi/2. Narrower cones have finer shadows.
     float outer_cone_rad = 0.785398163f;
     /// Radius of a spot's or point's source, metres, 0 to kMostSourceRadius_m. 0: a point, with hard shadows. Read by
-    /// the filters pcss, pcss_moments and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5. What shines of a disc,
-    /// sphere or tube has this radius. Without one, such a light is left out and reported as dropped.
+    /// the filters pcss, pcss_moments, soft_triangles and exact_soft. Bulb: 0.03; lantern: 0.1; softbox: 0.5. What
+    /// shines of a disc, sphere or tube has this radius. Without one, such a light is left out and reported as dropped.
     float source_radius_m = 0.0f;
     /// Angular radius of a sun's disk, radians, 0 to kMostSunRadius_rad. 0: a point. Read by the same filters. The
     /// real sun: 0.00465; a thin cloud before it: 0.05.
@@ -101,6 +101,7 @@ enum class ShadowFilter : std::uint8_t {
     moments,             // four moments (MSM)
     pcss,                // soft by the size of the source: percentage-closer soft shadows
     pcss_moments,        // the same, by moments
+    soft_triangles,      // the same, by the part of the source that casters' triangles leave free
     exact,               // no wrong pixel: rays where the map is uncertain
     exact_soft,          // the same for a source with a size
     count,               // number of filters
@@ -124,11 +125,11 @@ struct LightShadow {
     bool enabled = true;
     /// Filter that reads the map. `automatic`: pcss for area lights, else triangles, which measures best. It becomes
     /// exact where max_error_px or narrowest_caster_px is set and no map with triangles meets it. Change it for soft
-    /// shadows (pcss, exact_soft), for edges without any error (exact), or for speed (hardware_2x2).
+    /// shadows (pcss, soft_triangles, exact_soft), for edges without any error (exact), or for speed (hardware_2x2).
     ShadowFilter filter = ShadowFilter::automatic;
-    /// Antialiased edges of `triangles`, `exact`, `exact_soft` and `pcss`: visibility is the share of a pixel's area that
-    /// the light reaches. false: by the pixel's middle. Other filters do not depend on it. Set it where stairs at edges
-    /// show; it costs time.
+    /// Antialiased edges of `triangles`, `exact` and filters by the source's size but `pcss_moments`: visibility is the
+    /// share of a pixel's area that the light reaches. false: by the pixel's middle. Other filters do not depend on it.
+    /// Set it where stairs at edges show; it costs time.
     bool antialias = false;
     /// Largest allowed error of a shadow's edge on screen, pixels, 0 to 10 000. 0: 1, as far as maps of default size
     /// meet it. It holds for casters that the map resolves (ResolvedWidth). Smaller: larger maps or a slower filter.
@@ -157,6 +158,16 @@ struct LightShadow {
     /// off where smoke, decals or glass need not darken; its layers take up to 96 MiB.
     bool translucent_casters = true;
     bool operator==(const LightShadow&) const = default;
+};
+
+/// Memory of a light by what it holds, bytes. With KeptReport::bytes it sums up to LightCounts::bytes.
+struct BytesByPart {
+    std::uint64_t depths = 0;         // depth maps
+    std::uint64_t triangles = 0;      // names of the triangles that texels show
+    std::uint64_t prefiltered = 0;    // blurred moments, and scratch storage of the blur
+    std::uint64_t bounds = 0;         // conservative maps beside the depths
+    std::uint64_t static_copies = 0;  // copies of what static casters leave in the maps
+    std::uint64_t tints = 0;          // layers of translucent casters
 };
 
 /// Width that a caster must have for a light's maps to resolve it, and a gap between casters for its light. Edges of

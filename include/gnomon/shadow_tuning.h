@@ -83,7 +83,7 @@ struct ShadowTuning {
         float spread_m = 0.0f;
         /// Distance from the camera at which that half-width has doubled, metres. 0: it is constant.
         float doubles_m = 0.0f;
-        /// Seed of poisson_rotated, poisson_stratified, pcss and exact_soft.
+        /// Seed of poisson_rotated, poisson_stratified, pcss, soft_triangles and exact_soft.
         FilterSeed seed = FilterSeed::world;
         /// Edge of a cell of FilterSeed::world, metres, above 0.
         float cell_m = 0.02f;
@@ -164,6 +164,13 @@ struct ShadowTuning {
         /// Draws of all meshes that need the same state as one command. false: a command per draw, to the same bits.
         /// Change it only to compare what commands cost.
         bool multi_draw = true;
+        /// Texels of maps with triangles name theirs by one number of 32 bits, where that holds all triangles and
+        /// instances of the scene. false: by two, to the same picture, in half as many bytes again. Change it only to
+        /// compare.
+        bool short_references = true;
+        /// Casters are drawn as coarser meshes (assets::add_proxies()) where that moves no edge by more than a share of
+        /// a pixel. Change it for scenes of many triangles.
+        bool proxies = false;
         bool operator==(const Maps&) const = default;
     };
     /// Results kept from one frame to the next.

@@ -182,9 +182,9 @@ struct View {
     ShadowLayers cast_layers = kAllShadowLayers, receive_layers = kAllShadowLayers;
     /// False: no mask is drawn and no texture is read, for shaders that look lights up themselves (lookup_glsl()).
     bool wants_mask = true;
-    /// Number of the frame, for the random taps of poisson_rotated, poisson_stratified and pcss. Each of 1024 numbers
-    /// has its own pattern, so that temporal antialiasing averages them. 0: the same pattern in every frame. Other
-    /// filters do not depend on it.
+    /// Number of the frame, for the random taps of poisson_rotated, poisson_stratified, pcss and soft_triangles. Each
+    /// of 1024 numbers has its own pattern, so that temporal antialiasing averages them. 0: the same pattern in every
+    /// frame. Other filters do not depend on it.
     std::uint32_t noise_frame = 0;
 };
 

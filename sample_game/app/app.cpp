@@ -10,6 +10,7 @@
 #include "sample_game/support/files/image_files.h"
 #include "sample_game/support/scene/mist.h"
 #include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/scene/scene_proxies.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/parse_number.h"
 
@@ -29,7 +30,7 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
     for (const std::string& warning : data.value().warnings)
         world->warnings.push_back(line.scene ? line.scene->string() + ": " + warning : warning);
     world->scene = spawn_scene(std::move(data).value(), world->registry, world->library);
-    if (line.mist_per_m > 0.0f) add_mist(world->scene.bounds_ws, line.mist_per_m, world->registry);
+    set_mist(world->scene.bounds_ws, line.mist_per_m, world->mist, world->registry);
     if (level) world->game = std::make_unique<GameSession>(std::move(*level), world->scene, world->registry);
     if (line.animation) {
         const Result<std::size_t> animation = find_animation(world->scene.animations, *line.animation);
@@ -53,6 +54,7 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
             for (const std::string& setting : line.settings) apply_setting(settings, setting);
         });
     }
+    provide_proxies(world->scene, world->registry, world->library);
     std::vector<std::string> shadowed;
     for (const NamedEntity& light : world->scene.lights)
         if (world->registry.has<LightShadow>(light.entity)) shadowed.push_back(light.name);

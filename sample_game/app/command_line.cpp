@@ -52,7 +52,8 @@ void declare(CLI::App& app, Typed& typed) {
         "N: samples per pixel of a picture that stands still (default: 64 in a window without --frames, else 1)");
     app.add_option("--smooth", typed.smooth,
                    "on|off: smooth edges of pictures with few samples (default: on in a window without --frames)");
-    app.add_option("--shadow-bytes", typed.shadow_bytes, "N: bytes that all shadow maps may hold (default: any)");
+    app.add_option("--shadow-bytes", typed.shadow_bytes,
+                   "N|any: bytes that all shadow maps may hold (default: 256 MB, more beyond 1920x1080)");
     app.add_option("--shadow-ms", typed.shadow_ms,
                    "X: milliseconds of the GPU that shadows may take in a frame (default: any)");
     app.add_option("--shadow-rays", typed.shadow_rays,
@@ -132,9 +133,10 @@ std::optional<Error> read_numbers(const Typed& typed, const CLI::App& app, Comma
         line.smooth = typed.smooth == "on";
     }
     if (app.count("--shadow-bytes") > 0) {
-        line.shadow_budget.bytes = read_count(typed.shadow_bytes).value_or(0);
+        line.shadow_budget.bytes =
+            typed.shadow_bytes == "any" ? shadow::ShadowBudget::kUnlimited : read_count(typed.shadow_bytes).value_or(0);
         if (line.shadow_budget.bytes == 0)
-            return wrong("--shadow-bytes: '" + typed.shadow_bytes + "' is not a number of bytes above 0");
+            return wrong("--shadow-bytes: '" + typed.shadow_bytes + "' is neither a number of bytes above 0 nor any");
     }
     if (app.count("--shadow-ms") > 0) {
         const auto ms = read_number(typed.shadow_ms);

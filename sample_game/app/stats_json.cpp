@@ -60,6 +60,23 @@ Json filter_stats(const FilterReport& filter) {
             {"usual_resolved_px", or_null(filter.usual_resolved_px)}};
 }
 
+Json parts_stats(const BytesByPart& parts, std::uint64_t kept_bytes) {
+    return {{"depths", parts.depths}, {"triangles", parts.triangles},         {"prefiltered", parts.prefiltered},
+            {"bounds", parts.bounds}, {"static_copies", parts.static_copies}, {"tints", parts.tints},
+            {"kept", kept_bytes}};
+}
+
+/// Adds a light's memory to that of all lights.
+void add_parts(const LightReport& light, BytesByPart& sum, std::uint64_t& kept_bytes) {
+    sum.depths += light.counts.parts.depths;
+    sum.triangles += light.counts.parts.triangles;
+    sum.prefiltered += light.counts.parts.prefiltered;
+    sum.bounds += light.counts.parts.bounds;
+    sum.static_copies += light.counts.parts.static_copies;
+    sum.tints += light.counts.parts.tints;
+    kept_bytes += light.kept.bytes;
+}
+
 Json light_stats(const FrameReport& report, const LightReport& light) {
     return {{"name", light.name},
             {"kind", to_text(light.kind)},
@@ -75,10 +92,12 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"views_drawn", light.counts.views_drawn},
             {"texels", light.counts.texels},
             {"bytes", light.counts.bytes},
+            {"bytes_by_part", parts_stats(light.counts.parts, light.kept.bytes)},
             {"draws", light.counts.draws},
             {"draw_commands", light.counts.draw_commands},
             {"clears", light.counts.clears},
             {"triangles", light.counts.triangles},
+            {"full_triangles", light.counts.full_triangles},
             {"cpu_us", light.cpu_us},
             {"gpu_us", or_null(light.gpu_us)},
             {"kept", light.kept.bytes > 0 ? kept_stats(light.kept) : Json(nullptr)},
@@ -89,7 +108,9 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
 }  // namespace
 
 Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) {
-    std::uint64_t views = 0, draws = 0, draw_commands = 0, clears = 0, triangles = 0, bytes = 0;
+    std::uint64_t views = 0, draws = 0, draw_commands = 0, clears = 0, triangles = 0, full_triangles = 0, bytes = 0;
+    BytesByPart parts;
+    std::uint64_t kept_bytes = 0;
     Json lights = Json::array(), dropped = Json::array();
     for (const LightReport& light : report.lights) {
         views += light.counts.views_drawn;
@@ -97,7 +118,9 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
         draw_commands += light.counts.draw_commands;
         clears += light.counts.clears;
         triangles += light.counts.triangles;
+        full_triangles += light.counts.full_triangles;
         bytes += light.counts.bytes;
+        add_parts(light, parts, kept_bytes);
         lights.push_back(light_stats(report, light));
     }
     for (const DroppedEntity& entity : report.dropped)
@@ -110,7 +133,9 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
                    {"draw_commands", draw_commands},
                    {"clears", clears},
                    {"triangles", triangles},
+                   {"full_triangles", full_triangles},
                    {"bytes", bytes},
+                   {"bytes_by_part", parts_stats(parts, kept_bytes)},
                    {"ray_bytes", report.rays.bytes},
                    {"ray_picture_bytes", report.rays.list_bytes + report.rays.place_bytes},
                    {"sheet_bytes", report.rays.sheet_bytes}};

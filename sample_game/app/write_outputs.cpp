@@ -13,7 +13,7 @@ std::optional<Error> judge(const CommandLine& line, GameWorld& world, Frame& fra
     if (!frozen.on()) return Error{.message = "--truth: no camera sees anything", .rule = "output.truth"};
     for (std::size_t i = 0; i < frozen.lights().size(); ++i) {
         const JudgedLight& light = frozen.lights()[i];
-        if (!light.metrics)
+        if (!light.judged())
             return Error{.message = "the device could not draw the visibility of " + light.name,
                          .rule = "output.visibility"};
         if (line.truth_light == light.name) frozen.choose(i);

@@ -15,18 +15,23 @@ constexpr double kBytesPerMiB = 1024.0 * 1024.0;
 constexpr float kMost_MiB = 4096.0f, kMost_ms = 100.0f;
 constexpr float kWidth_px = 240.0f;
 
+const char* bytes_format(const shadow::ShadowBudget& budget) {
+    if (budget.bytes == shadow::ShadowBudget::kUnlimited) return "no bound";
+    return budget.bytes > 0 ? "%.1f" : "automatic";
+}
+
 void draw_sliders(shadow::ShadowBudget& budget) {
     const auto flags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput;
     auto mib = static_cast<float>(static_cast<double>(budget.bytes) / kBytesPerMiB);
     ImGui::PushItemWidth(kWidth_px);
-    if (ImGui::SliderFloat("maps, MiB", &mib, 0.0f, kMost_MiB, mib > 0.0f ? "%.1f" : "no bound", flags))
+    if (ImGui::SliderFloat("maps, MiB", &mib, 0.0f, kMost_MiB, bytes_format(budget), flags))
         budget.bytes =
             static_cast<std::uint64_t>(std::llround(static_cast<double>(std::max(mib, 0.0f)) * kBytesPerMiB));
     float ms = budget.gpu_ms;
     if (ImGui::SliderFloat("GPU, ms per frame", &ms, 0.0f, kMost_ms, ms > 0.0f ? "%.2f" : "no bound", flags))
         budget.gpu_ms = std::max(ms, 0.0f);
     ImGui::PopItemWidth();
-    if (ImGui::Button("no bounds")) budget = {};
+    if (ImGui::Button("defaults")) budget = {};
 }
 
 std::string from_to(std::uint64_t wanted, std::uint64_t given) {
@@ -69,7 +74,9 @@ void draw_grants(const FrameReport& report) {
 void draw_budget(const FrameReport& report, shadow::ShadowBudget& budget) {
     if (!ImGui::CollapsingHeader("budgets")) return;
     draw_sliders(budget);
-    if (budget == shadow::ShadowBudget{})
+    const bool limits = std::any_of(report.lights.begin(), report.lights.end(),
+                                    [](const LightReport& light) { return light.budget.has_value(); });
+    if (budget == shadow::ShadowBudget{} && !limits)
         ImGui::TextUnformatted("every light gets what it requests");
     else
         draw_grants(report);

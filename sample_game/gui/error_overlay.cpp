@@ -62,6 +62,13 @@ bool has_less(const LightReport& light) {
 
 std::string figures(const JudgedLight& light, const LightReport& report) {
     char text[192];
+    if (light.soft) {
+        const truth::SoftMetrics& m = *light.soft;
+        std::snprintf(text, sizeof text,
+                      "%-14.14s all of its source: mean error %.3f %%, in penumbrae %.2f %%, leak %.3f %%",
+                      light.name.c_str(), 100.0 * m.mean_error, 100.0 * m.penumbra_error, 100.0 * m.umbra_leak);
+        return text;
+    }
     if (!light.metrics) {
         std::snprintf(text, sizeof text, "%-14.14s %s", light.name.c_str(),
                       light.stale ? "is being read" : "its visibility cannot be read");

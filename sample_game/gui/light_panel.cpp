@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sample_game/gui/gui.h"
+#include "sample_game/support/scene/mist.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/setting_uses.h"
 
@@ -211,6 +212,18 @@ void draw_report(const FrameReport& report) {
     ImGui::EndTable();
 }
 
+/// Draws the slider of the mist; at its left end there is none.
+void draw_mist(GameWorld& world) {
+    constexpr float kMost_per_m = 1.0f;
+    const FogVolume* fog = world.mist == ecs::kNull ? nullptr : world.registry.get<FogVolume>(world.mist);
+    float mist_per_m = fog ? fog->extinction_per_m : 0.0f;
+    ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
+    if (ImGui::SliderFloat("mist", &mist_per_m, 0.0f, kMost_per_m, "%.3f per m", ImGuiSliderFlags_Logarithmic))
+        set_mist(world.scene.bounds_ws, mist_per_m, world.mist, world.registry);
+    ImGui::PopItemWidth();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("share of light that mist takes per metre; it shows shafts of light");
+}
+
 /// Draws the switch that freezes the frame, and the choice of the light with the errors to show.
 void draw_frozen_choice(FrozenFrame& frozen, PanelState& state) {
     bool on = frozen.on();
@@ -261,6 +274,7 @@ void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 si
             ImGui::SetTooltip("samples are added up while nothing moves; until then edges are smoothed");
         ImGui::SameLine();
         ImGui::Text("samples per pixel: %u", report.samples);
+        draw_mist(world);
         draw_debug_choice(world, report, state);
         draw_frozen_choice(frozen, state);
         draw_report(report);

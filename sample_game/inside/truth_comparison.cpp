@@ -3,10 +3,40 @@
 #include <algorithm>
 
 #include "systems/extract/extract.h"
+#include "systems/shadow/request/filter_table.h"
 #include "systems/transform/transform_system.h"
 #include "systems/truth/error_tints.h"
 
 namespace gnomon::game {
+namespace {
+
+TracedSource source_of(const Light& light, ShadowLayers layers) {
+    return {layers, light.source_radius_m, light.sun_radius_rad, light.width_m, light.height_m};
+}
+
+/// Returns whether the light's shadow is drawn by a filter that reads the size of its source.
+bool reads_size(const FrameReport& report, ecs::Entity light) {
+    for (const LightReport& own : report.lights)
+        if (own.entity == light && own.filter.filter != ShadowFilter::automatic)
+            return shadow::filter_row(own.filter.filter).width == shadow::FilterWidth::source;
+    return false;
+}
+
+nlohmann::ordered_json soft_stats(const std::string& name, const truth::SoftMetrics& m) {
+    return {{"name", name},
+            {"scored_px", m.scored},
+            {"false_shadow_px", m.false_shadow},
+            {"false_light_px", m.false_light},
+            {"mean_error", m.mean_error},
+            {"umbra_px", m.umbra},
+            {"umbra_leak", m.umbra_leak},
+            {"lit_px", m.lit},
+            {"lit_loss", m.lit_loss},
+            {"penumbra_px", m.penumbra},
+            {"penumbra_error", m.penumbra_error}};
+}
+
+}  // namespace
 
 void FrozenFrame::freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px,
                          unsigned threads) {
@@ -18,8 +48,9 @@ void FrozenFrame::freeze(ecs::Registry& world, const assets::MeshLibrary& librar
     size_px_ = size_px;
     for (const LightItem& light : scene.lights) {
         if (!light.has_shadow) continue;
-        lights_.push_back({.name = light.name, .entity = light.entity, .metrics = {}});
-        layers_.push_back(light.shadow.layers);
+        lights_.push_back({.name = light.name, .entity = light.entity, .metrics = {}, .soft = {}});
+        const Light* own = world.get<Light>(light.entity);
+        sources_.push_back(source_of(own ? *own : Light{}, light.shadow.layers));
     }
     if (chosen_ && *chosen_ >= lights_.size()) chosen_.reset();
     trace_ = std::make_unique<truth::BackgroundTrace>(scene, library, threads);
@@ -29,7 +60,7 @@ void FrozenFrame::freeze(ecs::Registry& world, const assets::MeshLibrary& librar
 void FrozenFrame::thaw() {
     trace_.reset();
     lights_.clear();
-    layers_.clear();
+    sources_.clear();
     tints_.clear();
     ++version_;
     state_ = State::off;
@@ -40,7 +71,8 @@ void FrozenFrame::update(Frame& frame, const ecs::Registry& world, glm::uvec2 si
     bool same = size_px == size_px_;
     for (std::size_t i = 0; same && i < lights_.size(); ++i) {
         const LightShadow* shadow = world.get<LightShadow>(lights_[i].entity);
-        same = shadow && shadow->layers == layers_[i];
+        const Light* own = world.get<Light>(lights_[i].entity);
+        same = shadow && own && source_of(*own, shadow->layers) == sources_[i];
     }
     if (!same) return thaw();
     if (!frame.report().still)
@@ -70,13 +102,24 @@ void FrozenFrame::judge(Frame& frame, std::size_t index) {
     JudgedLight& light = lights_[index];
     light.stale = false;
     light.metrics.reset();
+    light.soft.reset();
     if (!frame.read_visibility(light.entity, light.measured)) light.measured.clear();
-    const auto& traced = trace_->truth().lights;
-    if (index < traced.size() && light.measured.size() == traced[index].truth.visibility.size()) {
-        const truth::LightTruth& truth = traced[index].truth;
-        light.metrics = truth::compare({size_px_, light.measured, truth.visibility, truth.scored, truth.ambiguous});
+    const auto& lights = trace_->truth().lights;
+    if (index < lights.size() && light.measured.size() == lights[index].truth.visibility.size()) {
+        const truth::TracedLight& traced = lights[index];
+        const truth::LightTruth& truth = traced.truth;
+        if (traced.source && reads_size(frame.report(), light.entity))
+            light.soft = truth::compare_soft(light.measured, traced.source->visibility, traced.source->scored);
+        else
+            light.metrics = truth::compare({size_px_, light.measured, truth.visibility, truth.scored, truth.ambiguous});
     }
     paint();
+}
+
+const truth::LightTruth* FrozenFrame::truth_of(std::size_t index) const {
+    const truth::TracedLight& traced = trace_->truth().lights[index];
+    if (lights_[index].soft) return &*traced.source;
+    return lights_[index].metrics ? &traced.truth : nullptr;
 }
 
 void FrozenFrame::choose(std::optional<std::size_t> light) {
@@ -88,9 +131,8 @@ void FrozenFrame::choose_next() { choose(chosen_ ? *chosen_ + 1 : 0); }
 
 void FrozenFrame::paint() {
     std::vector<truth::DrawnLight> shown;
-    const auto& traced = trace_->truth().lights;
     for (std::size_t i = 0; i < lights_.size(); ++i)
-        if (lights_[i].metrics && (!chosen_ || *chosen_ == i)) shown.push_back({lights_[i].measured, &traced[i].truth});
+        if (lights_[i].judged() && (!chosen_ || *chosen_ == i)) shown.push_back({lights_[i].measured, truth_of(i)});
     truth::tint_errors(size_px_, shown, tints_);
     ++version_;
 }
@@ -98,6 +140,7 @@ void FrozenFrame::paint() {
 nlohmann::ordered_json truth_stats(const FrozenFrame& frozen) {
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const JudgedLight& light : frozen.lights()) {
+        if (light.soft) lights.push_back(soft_stats(light.name, *light.soft));
         if (!light.metrics) continue;
         const truth::Metrics& m = *light.metrics;
         lights.push_back({{"name", light.name},

@@ -11,6 +11,7 @@
 #include "gnomon/registry.h"
 #include "systems/truth/metrics.h"
 #include "systems/truth/picture_truth.h"
+#include "systems/truth/soft_metrics.h"
 
 namespace gnomon::game {
 
@@ -19,14 +20,24 @@ struct JudgedLight {
     std::string name;
     ecs::Entity entity;
     std::vector<float> measured = {};       // its visibility, as it is drawn now; empty: not yet read, or unreadable
-    std::optional<truth::Metrics> metrics;  // accuracy of `measured`; empty: not yet judged
-    bool stale = true;                      // its visibility has to be read again
+    std::optional<truth::Metrics> metrics;  // accuracy of `measured` by the light's middle
+    std::optional<truth::SoftMetrics> soft;  // the same by all of its source, for a filter that reads its size
+    bool stale = true;                       // its visibility has to be read again
+    bool judged() const { return metrics || soft; }
+};
+
+/// What the truth about a light depends on, beside its place.
+struct TracedSource {
+    ShadowLayers layers{};
+    float source_radius_m = 0.0f, sun_radius_rad = 0.0f, width_m = 0.0f, height_m = 0.0f;
+    bool operator==(const TracedSource&) const = default;
 };
 
 /// Frame that stands still while its ray-traced truth is computed, with the errors of its shadows.
 ///
 /// While it is frozen the caller moves neither camera, lights nor casters. Settings of shadows may change: errors are
-/// then computed again, for one light per frame, against the same truth.
+/// then computed again, for one light per frame, against the same truth. It is that of the light's middle, or of all
+/// its source where the light's filter reads its size.
 class FrozenFrame {
 public:
     enum class State : std::uint8_t { off, tracing, shown };
@@ -35,7 +46,7 @@ public:
     void freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px, unsigned threads);
     void thaw();
     /// Judges one light at most, once the trace is finished; never blocks on it. Call after each frame. Ends the freeze
-    /// if the picture's size or the layers of a light's shadow have changed.
+    /// if the picture's size, or the source or the layers of a light's shadow have changed.
     void update(Frame& frame, const ecs::Registry& world, glm::uvec2 size_px);
     /// Blocks until the trace is complete and every light is judged, or its visibility proves unreadable.
     void finish(Frame& frame);
@@ -59,13 +70,15 @@ public:
 
 private:
     void judge(Frame& frame, std::size_t index);
+    /// Returns the truth by which a light was judged; null: it was not.
+    const truth::LightTruth* truth_of(std::size_t index) const;
     void paint();
 
     State state_ = State::off;
     std::unique_ptr<truth::BackgroundTrace> trace_;
     glm::uvec2 size_px_{0, 0};
     std::vector<JudgedLight> lights_;
-    std::vector<ShadowLayers> layers_;  // layers of the lights when it was frozen
+    std::vector<TracedSource> sources_;  // sources of the lights when it was frozen
     std::optional<std::size_t> chosen_;
     std::size_t last_judged_ = 0;
     std::vector<std::uint8_t> tints_;

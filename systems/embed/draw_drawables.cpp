@@ -1,5 +1,6 @@
 #include "systems/embed/draw_drawables.h"
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/gl/device_gl45.h"
@@ -7,7 +8,8 @@
 namespace gnomon::embed {
 namespace {
 
-/// Clears a map's triangles: no texel shows any (kNoTriangle in shaders/shadow/filters/triangles/mesh_walk.glsl).
+/// Clears a map's triangles: no texel shows any (kNoTriangle in shaders/shadow/filters/triangles/mesh_walk.glsl). In a
+/// map with one number per texel all bits of its triangle say so (TriangleReferences).
 constexpr float kNoTriangle = 4294967296.0f;  // the largest integer of a cleared format (gl::is_integer)
 
 }  // namespace
@@ -23,7 +25,8 @@ gl::Failure draw_drawables(gl::Device& device, const SceneStore& store, const Vi
     list.add(gl::BeginGroup{"drawables"});
     for (const shadow::EngineDraw& draw : draws) {
         if (!draw.clears) continue;
-        list.add(gl::BeginPass{draw.target, area(draw), true, 0.0f, true, {0.0f, kNoTriangle, 0.0f, 0.0f}});
+        const float first = draw.triangle_bits > 0 ? std::exp2(static_cast<float>(draw.triangle_bits)) - 1.0f : 0.0f;
+        list.add(gl::BeginPass{draw.target, area(draw), true, 0.0f, true, {first, kNoTriangle, 0.0f, 0.0f}});
         list.add(gl::EndPass{});
     }
     list.add(gl::EndGroup{});

@@ -50,7 +50,7 @@ void LayeredScene::update(const SceneSnapshot& whole, std::span<const ConsumerIt
     scene_.any_by_depth = whole.any_by_depth;
     scene_.air = whole.air;
     scene_.list_version = whole.list_version;
-    scene_.shapes = whole.shapes;
+    scene_.meshes = whole.meshes;
     scene_.tree = whole.tree;
     scene_.tree_version = whole.tree_version;
 }

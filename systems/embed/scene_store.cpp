@@ -272,8 +272,8 @@ void SceneStore::note_casters(std::uint32_t first) {
     snapshot_.air.any = holds(snapshot_.air.any, is_air);
     snapshot_.gpu_slot_count = casters_.bound();
     if (std::exchange(shapes_version_, library_.version) == library_.version) return;
-    snapshot_.shapes.clear();
-    for (const assets::Mesh& mesh : library_.meshes) snapshot_.shapes.push_back(mesh.shape);
+    snapshot_.meshes.shapes.clear();
+    for (const assets::Mesh& mesh : library_.meshes) snapshot_.meshes.shapes.push_back(mesh.shape);
 }
 
 void SceneStore::list_instances() {

@@ -94,7 +94,7 @@ private:
     std::vector<CasterId> changed_;  // casters with `moved` or `marked`
     std::vector<CasterId> came_;     // casters to list
     std::vector<std::uint32_t> went_;       // indices in the snapshot of those to take out
-    std::uint64_t shapes_version_ = ~0ull;  // library_.version when snapshot_.shapes was made
+    std::uint64_t shapes_version_ = ~0ull;  // library_.version when snapshot_.meshes.shapes was made
     InstanceSplice splice_;                 // scratch
     std::vector<Dropped> dropped_;
     std::vector<std::uint32_t> lacking_, lost_;

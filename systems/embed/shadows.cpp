@@ -183,7 +183,8 @@ void Shadows::State::run(ViewGroup& group) {
     const SceneSnapshot& scene = group.scene();
     const auto share = static_cast<std::uint32_t>(groups.active().size());  // each group has an equal share
     const shadow::ShadowSettings settings{
-        .budget = {options.budget.bytes == 0 ? 0 : std::max<std::uint64_t>(options.budget.bytes / share, 1),
+        .budget = {options.budget.bytes == 0 ? shadow::ShadowBudget::kUnlimited
+                                             : std::max<std::uint64_t>(options.budget.bytes / share, 1),
                    options.budget.gpu_ms / static_cast<float>(share)},
         .rays = false};
     group.report.clear();

@@ -92,6 +92,8 @@ public:
     /// Returns the numbers of vertices and triangles that meshes have taken.
     std::uint32_t used_vertices() const { return meshes_.vertex_arrays().used(); }
     std::uint32_t used_triangles() const { return meshes_.triangle_arrays().used(); }
+    /// Returns the number of triangles for which there are places: all numbers of triangles are below it.
+    std::uint32_t triangle_places() const { return meshes_.triangle_arrays().places(); }
 
 private:
     GpuScene() = default;

@@ -57,17 +57,30 @@ Marks put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceItem&
 bool earlier(const InstanceItem& a, const InstanceItem& b) { return a.entity.index < b.entity.index; }
 
 /// Lets go of the shapes of meshes that went.
-void free_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
-    for (std::size_t m = 0; m < snapshot.shapes.size(); ++m)
-        if (snapshot.shapes[m] != library.meshes[m].shape) snapshot.shapes[m] = nullptr;
+void free_shapes(const assets::MeshLibrary& library, MeshFacts& meshes) {
+    for (std::size_t m = 0; m < meshes.shapes.size(); ++m)
+        if (meshes.shapes[m] != library.meshes[m].shape) meshes.shapes[m] = nullptr;
 }
 
 /// Lists the shapes of rigid meshes. The list is empty if no mesh has one, so that users can skip it.
-void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
-    snapshot.shapes.clear();
+void list_shapes(const assets::MeshLibrary& library, MeshFacts& meshes) {
+    meshes.shapes.clear();
     const auto has_shape = [](const assets::Mesh& mesh) { return mesh.shape != nullptr && !mesh.deformer; };
     if (std::none_of(library.meshes.begin(), library.meshes.end(), has_shape)) return;
-    for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(has_shape(mesh) ? mesh.shape : nullptr);
+    for (const assets::Mesh& mesh : library.meshes) meshes.shapes.push_back(has_shape(mesh) ? mesh.shape : nullptr);
+}
+
+/// Lists the proxies of rigid meshes. The list is empty if no mesh has one.
+void list_proxies(const assets::MeshLibrary& library, MeshFacts& meshes) {
+    meshes.proxies.clear();
+    const auto has_some = [](const assets::Mesh& mesh) { return !mesh.proxies.empty() && !mesh.deformer; };
+    if (std::none_of(library.meshes.begin(), library.meshes.end(), has_some)) return;
+    for (const assets::Mesh& mesh : library.meshes) {
+        std::vector<ProxyItem>& proxies = meshes.proxies.emplace_back();
+        if (!has_some(mesh)) continue;
+        for (const assets::MeshProxy& proxy : mesh.proxies)
+            proxies.push_back({proxy.mesh, static_cast<double>(proxy.bound_m)});
+    }
 }
 
 }  // namespace
@@ -155,7 +168,7 @@ bool InstanceExtractor::any_mesh_changed(const assets::MeshLibrary& library, std
     if (others_lack) lacking_.assign(lacking.begin(), lacking.end());
     if (library.version == library_version_) return others_lack;
     library_version_ = library.version;
-    free_shapes(library, snapshot);
+    free_shapes(library, snapshot.meshes);
     const auto is_other = [&](const auto& item) {
         return item.mesh != kNoMesh && item.mesh_version != library.version_of(item.mesh);
     };
@@ -173,7 +186,8 @@ void InstanceExtractor::list(const ecs::Registry& registry, const assets::MeshLi
     snapshot.instances.clear();
     snapshot.changed_instances.clear();
     unusable_.clear();
-    list_shapes(library, snapshot);
+    list_shapes(library, snapshot.meshes);
+    list_proxies(library, snapshot.meshes);
     shapes_version_ = library.version;
     registry.each<MeshRef, WorldTransform>([&](ecs::Entity e, const MeshRef&, const WorldTransform&) {
         append(registry, library, e, snapshot, snapshot.instances);
@@ -244,7 +258,10 @@ InstanceExtractor::Splice InstanceExtractor::splice(const ecs::Registry& registr
     }
     for (InstanceItem& item : splice_.added) item.gpu_slot = slot_for(item.entity);
     snapshot.gpu_slot_count = static_cast<std::uint32_t>(slot_owner_.size());
-    if (std::exchange(shapes_version_, library.version) != library.version) list_shapes(library, snapshot);
+    if (std::exchange(shapes_version_, library.version) != library.version) {
+        list_shapes(library, snapshot.meshes);
+        list_proxies(library, snapshot.meshes);
+    }
     note_places(splice_instances(snapshot, splice_), snapshot);
     note_bent(snapshot);
     const bool may_have_air = snapshot.air.any || std::any_of(splice_.added.begin(), splice_.added.end(), is_air);

@@ -74,7 +74,7 @@ private:
     std::vector<DroppedEntity> unusable_;     // by the last list()
     std::vector<std::uint32_t> lacking_;      // as last seen
     std::uint64_t library_version_ = 0;       // as last seen
-    std::uint64_t shapes_version_ = 0;        // library's version when snapshot.shapes was made
+    std::uint64_t shapes_version_ = 0;        // library's version when snapshot.meshes.shapes was made
     std::vector<ecs::Entity> entities_;       // scratch
     InstanceSplice splice_;                   // scratch
 };

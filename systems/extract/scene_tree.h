@@ -30,6 +30,19 @@ void visit_instances(const SceneSnapshot& scene, Classify&& classify, Visit&& vi
         if (classify(scene.instances[i].bounds_ws) != math::Overlap::outside) visit(i);
 }
 
+/// Does the same with tests that parts of a box inherit; classify as in BoundsTree::visit with `open`.
+template <class Classify, class Visit>
+void visit_instances(const SceneSnapshot& scene, math::OpenTests open, Classify&& classify, Visit&& visit) {
+    if (has_tree(scene)) {
+        scene.tree.visit(open, classify, visit);
+        return;
+    }
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        math::OpenTests of_item = open;
+        if (classify(scene.instances[i].bounds_ws, of_item) != math::Overlap::outside) visit(i);
+    }
+}
+
 /// Returns the lowest value of any instance; infinity without one. rank and value as in BoundsTree::lowest.
 template <class Rank, class Value>
 double lowest_of_instances(const SceneSnapshot& scene, Rank&& rank, Value&& value) {

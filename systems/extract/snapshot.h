@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -147,6 +148,31 @@ struct SceneAir {
     std::vector<FogItem> fogs;  // by rising instance
 };
 
+/// Mesh that may be drawn into maps in place of another one (assets::MeshProxy).
+struct ProxyItem {
+    std::uint32_t mesh = 0;
+    double bound_m = 0.0;  // in mesh space
+};
+
+/// What is known of meshes, by mesh.
+struct MeshFacts {
+    /// Boxes around each mesh's triangles, in mesh space (assets::Mesh::shape). Null or missing: the instances' bounds
+    /// are used, as they must be for deformable meshes.
+    std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
+    std::vector<std::vector<ProxyItem>> proxies;  // each by rising bound; empty: no mesh has any
+};
+
+/// Returns the boxes around the mesh's triangles; null: its bounds are all that is known.
+inline const math::ShapeTree* shape_of(const MeshFacts& meshes, std::uint32_t mesh) {
+    return mesh < meshes.shapes.size() ? meshes.shapes[mesh].get() : nullptr;
+}
+
+/// Returns the mesh's proxies, by rising bound.
+inline std::span<const ProxyItem> proxies_of(const MeshFacts& meshes, std::uint32_t mesh) {
+    return mesh < meshes.proxies.size() ? std::span<const ProxyItem>(meshes.proxies[mesh])
+                                        : std::span<const ProxyItem>();
+}
+
 struct SceneSnapshot;
 /// Returns the mesh's pose; null: at rest.
 const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh);
@@ -154,6 +180,7 @@ const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh);
 /// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give
 /// equal snapshots.
 struct SceneSnapshot {
+    MeshFacts meshes = {};
     std::vector<ConsumerItem> consumers;
     /// Cameras that draw, if shadows are fitted to other cameras; empty: the consumers draw.
     std::vector<ConsumerItem> pictures;
@@ -171,10 +198,7 @@ struct SceneSnapshot {
     /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:
     /// unknown.
     std::uint64_t list_version = 0;
-    math::BoundsTree tree;  // over the instances' bounds, built by systems/extract/scene_tree.h; optional
-    /// Boxes around each mesh's triangles, in mesh space (assets::Mesh::shape), by mesh. Null or missing: the
-    /// instances' bounds are used, as they must be for deformable meshes.
-    std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
+    math::BoundsTree tree;           // over the instances' bounds, built by systems/extract/scene_tree.h; optional
     std::uint64_t tree_version = 0;  // version of the tree; unused if it differs from `version`
 };
 

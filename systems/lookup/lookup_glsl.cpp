@@ -243,6 +243,8 @@ std::string records_text(const gl::GlslLibrary& library, const RowNames& names, 
                            {"depths", std::to_string(units.first_depths)},
                            {"ids", std::to_string(units.first_triangles)},
                            {"four", names.of(LookupKind::cone, "FourTriangles")},
+                           {"unpacked", names.of(LookupKind::cone, "unpacked_triangle")},
+                           {"all_unpacked", names.of(LookupKind::cone, "unpacked_triangles")},
                            {"read_depth", in_each("depth = textureLod(gnomon_depths[#], place, 0.0).x;", units.arrays)},
                            {"read_id", in_each("id = textureLod(gnomon_ids[#], place, 0.0).xy;", units.arrays)},
                            {"gather_depths", in_each("depths = textureGather(gnomon_depths[#], place);", units.arrays)},
@@ -269,7 +271,8 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, const LookupRows
     if (!added) return added.error();
     const RowNames& names = added.value();
 
-    const Names first = {names.of(LookupKind::cone, "ViewRecord"), names.of(LookupKind::cone, "FourTriangles")};
+    const Names first = {names.of(LookupKind::cone, "ViewRecord"), names.of(LookupKind::cone, "FourTriangles"),
+                         names.of(LookupKind::cone, "unpacked_triangles")};
     Names roots;
     const std::string flat = flat_text(names, rows, roots), cube = cube_text(names, rows, roots);
     Values entries = called_names(names, flat.empty() ? LookupKind::cube : LookupKind::cone, roots);

@@ -10,7 +10,7 @@ namespace gnomon::lookup {
 struct LookupRecord {
     shadow::LightRecord light;
     glm::ivec4 row{0};    // x: LookupKind; y: number of the filter in the text; z: 1: a sun, 2: a spot, 4: reads depths
-    glm::ivec4 place{0};  // x: unit, from 0; y: first layer of its depths; z: first layer of its triangles
+    glm::ivec4 place{0};  // x: unit, from 0; y: first layer of its depths; z: of its triangles; w: their triangle_bits
     glm::vec4 sizes{0.0f};  // x: reach of the filter; y: edge of the map, texels
 };
 static_assert(sizeof(LookupRecord) == sizeof(shadow::LightRecord) + 48);

@@ -154,7 +154,8 @@ void LookupTable::write(const LightingLight& light, const Found& found, LookupOu
     record.row.x = static_cast<int>(lookup_kind(light.plain.row));
     record.row.y = static_cast<int>(std::find(filters_.begin(), filters_.end(), outcome.filter) - filters_.begin());
     record.row.z += reads_depths ? 4 : 0;
-    record.place = {unit, static_cast<int>(found.depths.first), static_cast<int>(found.triangles.first), 0};
+    record.place = {unit, static_cast<int>(found.depths.first), static_cast<int>(found.triangles.first),
+                    static_cast<int>(light.record.moment_sampling.w)};
     record.sizes = {found.reach_texel, static_cast<float>(found.depths.width), 0.0f, 0.0f};
 }
 

@@ -9,7 +9,7 @@ namespace gnomon::lookup {
 inline constexpr std::string_view kRecords = R"(
 struct gnomon_Light {
 $light$    ivec4 row;     // x: kind of lookup; y: number of the filter; z: 1: a sun; 2: a spot; 4: reads depths
-    ivec4 place;   // x: unit; y: first layer of its depths; z: first layer of its triangles
+    ivec4 place;   // x: unit; y: first layer of its depths; z: of its triangles; w: bits of their numbers
     vec4 sizes;    // x: reach of the filter, texels; y: edge of the map, texels
 };
 struct gnomon_Camera {
@@ -73,7 +73,9 @@ vec3 gnomon_id_place(vec3 at) { return vec3(at.xy, at.z + float(gnomon_light.pla
 inline constexpr std::string_view kSoftwareReaders = R"(
 float gnomon_shared_depth(vec3 at) { return textureLod(gnomon_depths[gnomon_unit], gnomon_depth_place(at), 0.0).x; }
 
-uvec2 gnomon_shared_id(vec3 at) { return textureLod(gnomon_ids[gnomon_unit], gnomon_id_place(at), 0.0).xy; }
+uvec2 gnomon_shared_id(vec3 at) {
+    return $unpacked$(textureLod(gnomon_ids[gnomon_unit], gnomon_id_place(at), 0.0).xy, gnomon_light.place.w);
+}
 
 vec3 gnomon_beside(vec3 at, float u, float v) { return vec3(at.xy + vec2(u, v) * (0.5 / gnomon_map_edge_px), at.z); }
 
@@ -101,7 +103,7 @@ $read_depth$    return depth;
 uvec2 gnomon_shared_id(vec3 at) {
     vec3 place = gnomon_id_place(at);
     uvec2 id = uvec2(0u);
-$read_id$    return id;
+$read_id$    return $unpacked$(id, gnomon_light.place.w);
 }
 
 vec4 gnomon_shared_depths(vec3 at) {
@@ -113,7 +115,7 @@ $gather_depths$    return depths;
 $four$ gnomon_shared_ids(vec3 at) {
     vec3 place = gnomon_id_place(at);
     uvec4 instances = uvec4(0u), triangles = uvec4(0u);
-$gather_ids$    return $four$(instances, triangles);
+$gather_ids$    return $all_unpacked$(instances, triangles, gnomon_light.place.w);
 }
 )";
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/zone.h"
+#include "systems/shadow/budget/automatic_limit.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/exact/near_light_clearance.h"
 #include "systems/shadow/fitting/directional/sdsm_splits.h"
@@ -14,6 +15,7 @@
 #include "systems/shadow/report/lighting_failures.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/limited_request.h"
+#include "systems/shadow/request/triangle_references.h"
 #include "systems/shadow/update/commit_maps.h"
 #include "systems/shadow/update/plan_updates.h"
 
@@ -131,14 +133,17 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     if (others_move) frame_.moving = dynamic_casters_.moving();
     BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
-    if (limits.bytes != MapCache::kNoLimit) limits.bytes -= std::min(limits.bytes, tint_maps_.wanted_bytes());
+    std::uint64_t automatic_bytes = settings.budget.bytes == 0 ? automatic_limit(scene.consumers) : BudgetLimits::kNone;
+    for (std::uint64_t* bytes : {&limits.bytes, &automatic_bytes})
+        if (*bytes != BudgetLimits::kNone) *bytes -= std::min(*bytes, tint_maps_.wanted_bytes());
+    if (history_.short_of_bytes) limits.bytes = std::min(limits.bytes, automatic_bytes);
     const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
     reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay() &&
               tint_maps_.stay();
     if (reused_) {
         keep_all(frame_.maps, frame_.updates);
     } else {
-        budget_.begin(limits, cost_calibration_.factors());
+        budget_.begin(limits, automatic_bytes, cost_calibration_.factors());
         run_stages(scene, gpu, settings, {list, report, frame_.cpu_us});
         had_casters_ = static_cast<bool>(gpu.caster_triangles());
         had_masks_ = static_cast<bool>(gpu.caster_masks());
@@ -171,11 +176,13 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
 
     const bool lacked = rays_lack_;
     rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
+    const TriangleReferences references = choose_references(gpu.capacity(), gpu.triangle_places(), history_.references);
     decide_requests(scene,
                     {device_.info(),
                      history_,
                      settings.shadows,
-                     {.rays = settings.budget.rays, .off = !settings.rays, .lacks_memory = rays_lack_}},
+                     {.rays = settings.budget.rays, .off = !settings.rays, .lacks_memory = rays_lack_},
+                     references},
                     fallbacks_, f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) apply_last_limits(scene, history_, f.requests, f.limited);
@@ -196,8 +203,10 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
               {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, budget_active},
               storage_, f.fitted, f.next_history, accounts);
     count_static_frames(scene, f.fitted, history_, budget_active, f.next_history);
+    f.next_history.references = references;
     finish("fitting");
 
+    budget_.apply_automatic(scene, f.fitted, history_, f.statuses);
     if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
     budget_.decide(scene, gpu, {f.requests, f.sets, f.fitted, history_, waiting_bytes_}, f.next_history, f.decisions,
                    accounts);
@@ -205,7 +214,8 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     provide_rays(scene, gpu, lacked && !rays_lack_, out.list);
     finish("budget");
 
-    maps_.set_limit(budget_.limits().bytes);
+    maps_.set_limit(budget_.map_limit());
+    maps_.set_keep_limit(budget_.keep_limit());
     maps_.assign(scene, f.fitted, f.decisions, f.maps, accounts);
     finish("maps");
     plan_updates(scene, gpu, {f.fitted, f.decisions, f.maps, budget_.draw_allowance()}, maps_, due_, f.updates);

@@ -19,8 +19,10 @@ struct Worst {
     Colour colour = kDarker;
 };
 
+/// Returns whether the pixel is off by more than a half. A half in place of none counts as that, too.
 bool is_wrong(const ComparedPixel& pixel) {
-    return !(pixel.measured >= 0.0f) || (pixel.measured >= kHalf) != (pixel.truth >= kHalf);
+    if (!(pixel.measured >= 0.0f)) return true;
+    return pixel.measured - pixel.truth >= kHalf || pixel.truth - pixel.measured > kHalf;
 }
 
 Worst worst_of(std::span<const DrawnLight> lights, std::size_t i) {
@@ -35,7 +37,12 @@ Worst worst_of(std::span<const DrawnLight> lights, std::size_t i) {
         const bool wrong = is_wrong(pixel);
         const float off = pixel.measured >= 0.0f ? std::abs(pixel.measured - pixel.truth) : 1.0f;
         if (!(off > worst.off)) continue;
-        if (!wrong) pixel.measured = 1.0f - pixel.truth;  // gives the colour of the error's direction
+        // Gives the colour of the error's direction.
+        if (pixel.measured >= 0.0f) {
+            const bool bright = pixel.measured > pixel.truth;
+            pixel.measured = bright ? 1.0f : 0.0f;
+            pixel.truth = 1.0f - pixel.measured;
+        }
         worst.off = off;
         worst.wrong = wrong;
         worst.colour = error_colour(pixel);

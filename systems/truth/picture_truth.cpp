@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "systems/truth/source_truth.h"
+
 namespace gnomon::truth {
 namespace {
 
 /// Number of rows that a thread takes at a time: neighbouring places share their walk through the trees.
 constexpr std::uint32_t kRowsAtOnce = 4;
-/// Cost per row: one ray for the surface, five for its light.
-constexpr std::uint64_t kSeeing = 1, kLighting = 5;
+/// Cost per row: one ray for the surface, five for its light, the few for its source, as many again as a guess at
+/// penumbrae.
+constexpr std::uint64_t kSeeing = 1, kLighting = 5, kFew = kFewSamples, kUndecided = kFewSamples;
 
 /// Calls work(first_row, rows) for all rows on several threads; `make_work` makes a `work` for each.
 template <class MakeWork>
@@ -39,9 +42,13 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
     if (scene.consumers.empty()) return truth;
     const ConsumerItem& camera = scene.consumers.front();
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}});
+        if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}, {}});
     const std::uint32_t height = camera.viewport_px.y;
-    state.all = std::max<std::uint64_t>(height * (kSeeing + kLighting * truth.lights.size()), 1);
+    const auto sized = static_cast<std::uint64_t>(
+        std::count_if(truth.lights.begin(), truth.lights.end(),
+                      [&](const TracedLight& traced) { return has_size(scene.lights[traced.light]); }));
+    state.all =
+        std::max<std::uint64_t>(height * (kSeeing + kLighting * truth.lights.size() + (kFew + kUndecided) * sized), 1);
 
     visibility::CasterTrees trees(library, visibility::TreesOf::casters_and_visible);
     trees.update(scene);
@@ -66,6 +73,21 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
                 trace_rows(scene, light, truth.seen, {row, rows}, queries, traced.truth);
             };
         });
+        if (!has_size(scene.lights[traced.light])) continue;
+        LightTruth& shares = traced.source.emplace();
+        shares.reset(truth.seen.count());
+        const SourceTrace source(scene, scene.lights[traced.light], truth.seen, shares);
+        const auto trace = [&](std::uint64_t work_per_row, const auto& trace_part) {
+            share_rows(height, threads, work_per_row, state, [&] {
+                return [&, queries = visibility::LightQueries(trees)](std::uint32_t row, std::uint32_t rows) mutable {
+                    trace_part(RowRange{row, rows}, queries);
+                };
+            });
+        };
+        trace(kFew, [&](RowRange rows, visibility::LightQueries& queries) { source.trace_few(rows, queries); });
+        const std::vector<float> few = shares.visibility;
+        trace(kUndecided,
+              [&](RowRange rows, visibility::LightQueries& queries) { source.trace_undecided(rows, few, queries); });
     }
     return truth;
 }

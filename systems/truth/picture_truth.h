@@ -1,18 +1,21 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "systems/truth/light_truth.h"
 #include "systems/truth/seen_surfaces.h"
 
-/// Truth about a picture's shadows: surfaces of the first camera, and the visibility of each shadowed light.
+/// Truth about a picture's shadows: surfaces of the first camera, and the visibility of each shadowed light. A filter
+/// is judged by what it shows: of a light with a size that is its middle, or all of its source.
 namespace gnomon::truth {
 
 struct TracedLight {
     std::uint32_t light = 0;  // index in the snapshot
-    LightTruth truth;
+    LightTruth truth;         // visibility of its middle
+    std::optional<LightTruth> source;  // share of its source; empty for a point
 };
 
 struct PictureTruth {

@@ -36,14 +36,14 @@ struct LightQueries::Worker {
     rays::RayPacket rays;
     rays::PerLane<std::uint32_t> place_of_lane{};
     rays::PerLane<double> weight_of_lane{};
-    std::vector<double> weights;  // sums over a place's rays, for area lights
+    std::vector<double> weights;  // sums over a place's rays, where these have weights
     std::uint32_t hint = 0;
 
     void answer(const Batch& batch, std::size_t first, std::size_t count) {
         const std::span<const Place> places = batch.places.subspan(first, count);
         const std::span<float> answers = batch.answers.subspan(first, count);
         std::fill(answers.begin(), answers.end(), 0.0f);
-        weights.assign(batch.light.area() ? count : 0, 0.0);
+        weights.assign(count, 0.0);
         rays.last = batch.light.last();
         rays.count = 0;
         for (const std::uint32_t i : order.of(places)) {
@@ -52,22 +52,23 @@ struct LightQueries::Worker {
                 LightRay ray;
                 const Reach reach = batch.light.ray(places[i], sample, ray);
                 if (reach == Reach::all) answers[i] += 1.0f;
-                if (reach == Reach::all && batch.light.area()) weights[i] += 1.0;
+                if (reach == Reach::all) weights[i] += 1.0;
                 if (reach != Reach::ray) continue;
                 rays.from[rays.count] = ray.from_ws_m;
                 rays.along[rays.count] = ray.along;
                 rays.first[rays.count] = batch.nearest_m > 0.0 ? batch.nearest_m / glm::length(ray.along) : 0.0;
                 place_of_lane[rays.count] = i;
                 weight_of_lane[rays.count] = ray.weight;
-                if (batch.light.area()) weights[i] += ray.weight;
+                weights[i] += ray.weight;
                 if (++rays.count == rays::kLanes) send(batch, answers);
             }
         }
         if (rays.count > 0) send(batch, answers);
-        for (std::size_t i = 0; i < weights.size(); ++i)
-            answers[i] = weights[i] > 0.0 ? std::min(answers[i] / static_cast<float>(weights[i]), 1.0f) : 0.0f;
-        if (batch.light.area()) return;
-        for (std::size_t i = 0; i < count; ++i) answers[i] /= static_cast<float>(batch.light.count(places[i].radius_m));
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool weighted = batch.light.weighted(places[i]);
+            const double all = weighted ? weights[i] : static_cast<double>(batch.light.count(places[i].radius_m));
+            answers[i] = all > 0.0 ? std::min(answers[i] / static_cast<float>(all), 1.0f) : 0.0f;
+        }
     }
 
     /// Adds 1 to the results of places with an unblocked ray.

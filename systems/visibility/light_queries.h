@@ -17,7 +17,8 @@ namespace gnomon::visibility {
 struct Place {
     glm::dvec3 at_ws_m{0.0};
     double radius_m = 0.0;
-    glm::dvec3 normal_ws{0.0};  // surface at a point: places of area lights count by their cosines to it. 0: all alike
+    /// Surface at a point: only light from before it counts, from area lights by its cosine. 0: all alike.
+    glm::dvec3 normal_ws{0.0};
 };
 
 struct QueryOptions {

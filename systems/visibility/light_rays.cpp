@@ -102,6 +102,7 @@ Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) cons
         const glm::dvec2& at = disk_[sample * partner_ % disk_.size()];
         if (area_) return source_ray(place, middle, square_ ? disk_to_square(at) : at, ray);
         ray.along = middle + size_ * (right * at.x + up * at.y);
+        if (weighted(place) && !(glm::dot(ray.along, place.normal_ws) > 0.0)) return Reach::none;
     } else {
         ray.along = middle;
     }

@@ -12,7 +12,7 @@ namespace gnomon::visibility {
 /// Ray from a place to the light, which it reaches at t = LightRays::last().
 struct LightRay {
     glm::dvec3 from_ws_m{0.0}, along{0.0};
-    double weight = 1.0;  // share of an area light's that comes this way; 0: none does
+    double weight = 1.0;  // share of the source's light that comes this way; 0: none does
 };
 
 /// Result for a sample of a place: no light, all light, or a ray must decide.
@@ -32,8 +32,10 @@ public:
     /// Returns the number of rays for a place of this radius.
     std::size_t count(double radius_m) const { return sized_ || radius_m > 0.0 ? disk_.size() : 1; }
     double last() const { return last_; }
-    /// Returns true if rays have weights: the share of light is their weighted mean.
-    bool area() const { return area_; }
+    /// Returns true if rays to the place have weights: the share of light is their weighted mean.
+    bool weighted(const Place& place) const {
+        return area_ || (sized_ && !(place.radius_m > 0.0) && place.normal_ws != glm::dvec3(0.0));
+    }
     Reach ray(const Place& place, std::size_t sample, LightRay& ray) const;
     /// Returns true if the point lies within the light's range and cone.
     bool reaches(const glm::dvec3& point_ws_m) const;

@@ -58,6 +58,8 @@ class Pages(unittest.TestCase):
             for flags in (["--demo", "--frames", "3", "--time", "2"],
                           ["--frames", "3", "--shadow-bytes", "4000000"],
                           ["--frames", "2", "--set", "max_error_px=0.1", "--truth", os.path.join(folder, "t.png")],
+                          ["--frames", "2", "--set", "filter=pcss", "--set", "source_radius_m=0.1", "--truth",
+                           os.path.join(folder, "s.png")],
                           ["--frames", "2", "--set", "filter=exact"]):
                 subprocess.run([self.game, "--headless", "--size", "96x54", "--stats", file, *flags], check=True,
                                timeout=TIMEOUT_S, stdout=subprocess.DEVNULL)

@@ -82,6 +82,22 @@ class Truth(GameTest):
         self.assertGreater(sum(light["wrong_px"] for light in plain.values()), 0)
         self.assertGreater(min(light["edge"]["places"] for light in plain.values()), 100)
 
+    def test_a_filter_that_reads_the_sources_size_is_judged_by_all_of_it(self):
+        sized = ("--set", "source_radius_m=0.05", "--set", "sun_radius_deg=1", "--set", "resolution=1024")
+        hard, _ = self.judged(*sized)
+        taps, taps_picture = self.judged(*sized, "--set", "filter=pcss")
+        rays, rays_picture = self.judged(*sized, "--set", "filter=exact_soft")
+        bench = self.bench_figures(*sized, "--set", "filter=pcss")
+        for name, light in taps.items():
+            self.assertIn("wrong_px", hard[name], "a filter that takes a point is judged by the middle")
+            self.assertNotIn("wrong_px", light)
+            self.assertGreater(light["penumbra_px"], 100, name)
+            self.assertLess(rays[name]["mean_error"], 0.5 * light["mean_error"], name)
+            for key in ("mean_error", "penumbra_error", "umbra_leak"):
+                theirs = bench[name]["soft"][key]
+                self.assertAlmostEqual(light[key], theirs, delta=0.1 * theirs + 0.002, msg="%s of %s" % (key, name))
+        self.assertGreater(pure(taps_picture, 2), pure(rays_picture, 2) + 100)
+
     def test_a_bias_that_is_wrong_shows_as_false_light_or_as_false_shadow(self):
         fair, fair_picture = self.judged()
         far, far_picture = self.judged("--set", "bias=5")

@@ -15,7 +15,7 @@ namespace gnomon::test {
 namespace {
 
 #ifdef GNOMON_SANITIZED
-constexpr int kExecutions = 5'000;  // fuzz_gltf_structure runs the same mutator under sanitizers for a minute
+constexpr int kExecutions = 3'000;  // fuzz_gltf_structure runs the same mutator under sanitizers for a minute
 #else
 constexpr int kExecutions = 20'000;
 #endif

@@ -122,6 +122,10 @@ TEST_F(AntialiasOfSources, TapsHaveFewerStairsInNarrowPenumbrae) {
     expect_nearer({"filter=pcss", "source_radius_m=0.02", "sun_radius_deg=0.27"}, 0.95);
 }
 
+TEST_F(AntialiasOfSources, TrianglesHaveFewerStairsInNarrowPenumbrae) {
+    expect_nearer({"filter=soft_triangles", "source_radius_m=0.02", "sun_radius_deg=0.27"}, 0.75);
+}
+
 TEST_F(AntialiasOfSources, TapsHaveNoMoreErrorInWidePenumbrae) {
     expect_nearer({"filter=pcss", "source_radius_m=0.1", "sun_radius_deg=1"}, 1.0);
 }

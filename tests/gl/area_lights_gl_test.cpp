@@ -90,8 +90,22 @@ TEST_F(AreaLights, ByTheMapAreAboutAsSoftAsTheTruth) {
     }
 }
 
+TEST_F(AreaLights, ByTrianglesAreAsSoftAsTheTruth) {
+    for (const LightKind kind : kAreaKinds) {
+        SCOPED_TRACE(to_text(kind));
+        build(kind, {.filter = ShadowFilter::soft_triangles, .resolution_px = 1024});
+        draw();
+        const oracle::SoftMetrics m = judge();
+        EXPECT_LE(m.mean_error, 0.008);
+        EXPECT_LE(m.penumbra_error, 0.055) << "shares of what is seen, not of what falls";
+        EXPECT_LE(m.umbra_leak, 0.01);
+        EXPECT_LE(m.lit_loss, 1e-3);
+    }
+}
+
 TEST_F(AreaLights, WithoutCastersDarkenNothing) {
-    for (const ShadowFilter filter : {ShadowFilter::exact_soft, ShadowFilter::pcss, ShadowFilter::triangles})
+    for (const ShadowFilter filter :
+         {ShadowFilter::exact_soft, ShadowFilter::pcss, ShadowFilter::soft_triangles, ShadowFilter::triangles})
         for (const LightKind kind : kAreaKinds) {
             SCOPED_TRACE(std::string(to_text(kind)) + " " + to_text(filter));
             build(kind, {.filter = filter, .resolution_px = 256}, {}, false);

@@ -19,6 +19,9 @@ if(GNOMON_SAMPLE)
     budget_gl_test.cpp
     ../economy/both_ways.cpp
     LIBRARIES gnomon_bench_parts)
+  # How maps name the triangles that they show.
+  gnomon_tests(NAME gl_references LABEL gl SOURCES short_references_gl_test.cpp proxies_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_oracle)
   # Translucent casters, by maps and by rays.
   gnomon_tests(NAME gl_tint LABEL gl SOURCES
     tint_gl_test.cpp

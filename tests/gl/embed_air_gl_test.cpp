@@ -2,7 +2,7 @@
 #include <iostream>
 #include <random>
 
-#include "tests/gl/embed_fixture.h"
+#include "tests/gl/full_screen_pass.h"
 #include "tests/unit/math/random_seed.h"
 
 // Places in the air, as an engine's fog shader looks them up in the maps of declared boxes, against rays.
@@ -14,61 +14,33 @@ constexpr int kSide_px = 96;  // a place per pixel
 /// A pass that writes the visibility of one light at each of a texture's places.
 class AirPass {
 public:
-    explicit AirPass(const std::string& lookups) {
-        const std::string fragment = "#version 450 core\n" + lookups + R"(
+    explicit AirPass(const std::string& lookups)
+        : pass_({kSide_px, kSide_px}, lookups + R"(
 layout(binding = 0) uniform sampler2D places;   // from the camera
 uniform int light;
 layout(location = 0) out float visible;
-void main() { visible = gnomon_visibility(light, texelFetch(places, ivec2(gl_FragCoord.xy), 0).xyz); })";
-        program_ = linked(R"(#version 450 core
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); })",
-                          fragment.c_str());
-        glCreateVertexArrays(1, &array_);
-        glCreateTextures(GL_TEXTURE_2D, 1, &target_);
-        glTextureStorage2D(target_, 1, GL_R32F, kSide_px, kSide_px);
+void main() { visible = gnomon_visibility(light, texelFetch(places, ivec2(gl_FragCoord.xy), 0).xyz); })") {
         glCreateTextures(GL_TEXTURE_2D, 1, &places_);
         glTextureStorage2D(places_, 1, GL_RGBA32F, kSide_px, kSide_px);
-        glCreateFramebuffers(1, &framebuffer_);
-        glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, target_, 0);
     }
-    ~AirPass() {
-        glDeleteProgram(program_);
-        glDeleteVertexArrays(1, &array_);
-        glDeleteTextures(1, &target_);
-        glDeleteTextures(1, &places_);
-        glDeleteFramebuffers(1, &framebuffer_);
-    }
+    ~AirPass() { glDeleteTextures(1, &places_); }
     std::vector<float> looked_up(const std::vector<glm::vec4>& places_ca, int light) const {
         glTextureSubImage2D(places_, 0, 0, 0, kSide_px, kSide_px, GL_RGBA, GL_FLOAT, places_ca.data());
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-        glViewport(0, 0, kSide_px, kSide_px);
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_DEPTH_TEST);
-        glDisable(GL_BLEND);
-        glUseProgram(program_);
         glBindTextureUnit(0, places_);
-        glUniform1i(glGetUniformLocation(program_, "light"), light);
-        glBindVertexArray(array_);
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        std::vector<float> values(places_ca.size());
-        glGetTextureImage(target_, 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
-                          values.data());
-        return values;
+        glUniform1i(pass_.use("light"), light);
+        return pass_.drawn();
     }
 
 private:
-    GLuint program_ = 0, array_ = 0, target_ = 0, places_ = 0, framebuffer_ = 0;
+    FullScreenPass pass_;
+    GLuint places_ = 0;
 };
 
 class EmbedAir : public EmbedTest {
 protected:
     ShadowsOptions options() override {
         ShadowsOptions wanted = EmbedTest::options();
-        wanted.lookup = LookupOptions{.first_texture_unit = 2,
-                                      .texture_unit_count = 14,
-                                      .storage_binding = 3,
-                                      .alpha_tests = false,
-                                      .filters = {ShadowFilter::triangles}};
+        wanted.lookup = lookup_of_triangles();
         return wanted;
     }
     void SetUp() override {

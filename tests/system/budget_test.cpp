@@ -233,7 +233,7 @@ TEST_F(Budgets, GiveBackWhenThereIsRoom) {
         EXPECT_EQ(light.budget->harm, 0.0) << light.name;
         EXPECT_EQ(light.counts.bytes - light.kept.bytes, light.budget->wanted_bytes) << light.name;
     }
-    level->settings.shadow_budget = {};
+    level->settings.shadow_budget = {shadow::ShadowBudget::kUnlimited};
     level->step();
     for (const LightReport& light : level->frame->report().lights) EXPECT_FALSE(light.budget) << light.name;
 }
@@ -243,7 +243,7 @@ TEST_F(Budgets, ThatHoldEverythingChangeNothing) {
     Level other(other_device, 100);
     start(100);
     level->settings.shadow_budget = {std::uint64_t{1} << 40, 1.0e6f};
-    other.settings.shadow_budget = {};
+    other.settings.shadow_budget = {shadow::ShadowBudget::kUnlimited};
     for (int i = 0; i < 150; ++i) {
         for (Level* l : {level.get(), &other}) {
             if (i >= 60) l->walk(0.02);
@@ -286,7 +286,7 @@ TEST_F(Budgets, LearnFromTimersThatAnswerLate) {
 TEST_F(Budgets, ADeviceWithoutRoomIsSharedOutAndGivenBackToItself) {
     device.capacity_bytes = 24u << 20;
     start();
-    level->settings.shadow_budget = {};
+    level->settings.shadow_budget = {shadow::ShadowBudget::kUnlimited};
     std::size_t less = 0;
     for (int i = 0; i < 3 * kSettled; ++i) {
         level->step();

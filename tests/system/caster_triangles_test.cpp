@@ -21,17 +21,6 @@ protected:
         FrameTest::SetUp();
         stage = world.add_stage();
     }
-    ecs::Entity add_light(LightKind kind, const std::string& name, ShadowFilter filter) {
-        const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
-        choose(light, filter);
-        return light;
-    }
-    void choose(ecs::Entity light, ShadowFilter filter) {
-        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
-            s.filter = filter;
-            s.resolution_px = 256;
-        });
-    }
     struct Bindings {
         std::vector<std::uint32_t> units, storage;
     };
@@ -54,7 +43,7 @@ protected:
     }
     std::vector<std::string> triangle_labels() const { return map_labels(device, "caster triangles"); }
     TestWorld::Stage stage;
-    static constexpr std::uint64_t kDepthBytes = 4, kTriangleBytes = 8;
+    static constexpr std::uint64_t kDepthBytes = 4, kTriangleBytes = 4;
 };
 
 TEST_F(CasterTriangles, LightsOfEveryOtherRowMakeBindAndDrawNothingOfThem) {
@@ -86,6 +75,29 @@ TEST_F(CasterTriangles, AreOneBufferForAllLightsThatReadThem) {
     step();
     for (const LightReport& light : frame->report().lights) EXPECT_EQ(light.state, LightState::reused) << light.name;
     EXPECT_THAT(triangle_labels(), SizeIs(1));
+}
+
+TEST_F(CasterTriangles, TakeTwoNumbersATexelWhereOneIsNotWanted) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    const auto expect_parts = [&](std::uint64_t triangle_bytes) {
+        const LightReport& shown = light("lamp");
+        EXPECT_EQ(shown.state, LightState::rendered);
+        EXPECT_EQ(shown.counts.parts.depths, shown.counts.texels * kDepthBytes);
+        EXPECT_EQ(shown.counts.parts.triangles, shown.counts.texels * triangle_bytes);
+        EXPECT_EQ(shown.counts.bytes, shown.counts.parts.depths + shown.counts.parts.triangles);
+    };
+    expect_parts(kTriangleBytes);
+    ShadowTuning tuning;
+    tuning.maps.short_references = false;
+    world.registry.emplace<ShadowTuning>(lamp, tuning);
+    step();
+    expect_parts(2 * kTriangleBytes);
+    step();
+    EXPECT_EQ(light("lamp").state, LightState::reused) << "the choice stays";
+    world.registry.patch<ShadowTuning>(lamp, [](ShadowTuning& t) { t.maps.short_references = true; });
+    step();
+    expect_parts(kTriangleBytes);
 }
 
 TEST_F(CasterTriangles, OfALightThatReadsThemNoMoreAreFreed) {
@@ -165,14 +177,31 @@ TEST_F(CasterTriangles, WithoutRoomForTheirMasksAreGivenBack) {
 TEST_F(CasterTriangles, WithoutRoomForThemTheLightIsLitAndTriedAgain) {
     device.fail_label("caster triangles", gl::Failure::out_of_memory);
     add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    const ecs::Entity soft = add_light(LightKind::spot, "soft", ShadowFilter::soft_triangles);
+    world.registry.patch<Light>(soft, [](Light& l) { l.source_radius_m = 0.1f; });
     add_light(LightKind::spot, "other", ShadowFilter::hard);
     step();
-    EXPECT_EQ(light("lamp").state, LightState::skipped);
-    EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+    for (const char* name : {"lamp", "soft"}) {
+        EXPECT_EQ(light(name).state, LightState::skipped) << name;
+        EXPECT_EQ(light(name).reason, Reason::buffer_failed) << name;
+    }
     EXPECT_EQ(light("other").state, LightState::rendered);
     device.stop_failing();
+    for (std::uint64_t i = 0; i <= Retry::kFrames; ++i) step();
+    for (const char* name : {"lamp", "soft"}) EXPECT_EQ(light(name).state, LightState::reused) << name << " is drawn";
+    EXPECT_EQ(light("soft").filter.filter, ShadowFilter::soft_triangles);
+}
+
+TEST_F(CasterTriangles, WithoutRoomForTheirNamesAMapIsTriedAgain) {
+    device.fail_label(", triangles", gl::Failure::out_of_memory);
+    const ecs::Entity soft = add_light(LightKind::spot, "soft", ShadowFilter::soft_triangles);
+    world.registry.patch<Light>(soft, [](Light& l) { l.source_radius_m = 0.1f; });
+    step();
+    EXPECT_EQ(light("soft").state, LightState::skipped);
+    device.stop_failing();
     for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
-    EXPECT_EQ(light("lamp").state, LightState::rendered);
+    EXPECT_EQ(light("soft").state, LightState::rendered);
+    EXPECT_EQ(light("soft").counts.bytes, light("soft").counts.texels * (kDepthBytes + kTriangleBytes));
 }
 
 TEST(CasterTriangleRecords, HoldTheCornersAndCountNeighboursOverAllMeshes) {

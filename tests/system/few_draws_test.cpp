@@ -354,7 +354,7 @@ TEST_F(EngineMeshDraws, AreOneBatchPerBuffersAndComeLast) {
     for (std::uint32_t mesh = first; mesh < first + 4; ++mesh) add(mesh);
     add(kMixedBox);
     shadow::DepthDraws draws;
-    draws.add(scene, *gpu, {.triangles = true, .culls = true, .parallel = true}, {casters, {}});
+    draws.add(scene, *gpu, {.triangles = true, .culls = true, .parallel = true}, {casters, {}, {}});
     const auto batches = draws.batches(draws.end_group());
     ASSERT_EQ(batches.size(), 4u);
     EXPECT_TRUE(!batches[0].mask && !batches[0].engine) << "the opaque half";

@@ -29,6 +29,17 @@ protected:
         frame->run(world.registry, settings);
         return frame->report();
     }
+    ecs::Entity add_light(LightKind kind, const std::string& name, ShadowFilter filter) {
+        const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
+        choose(light, filter);
+        return light;
+    }
+    void choose(ecs::Entity light, ShadowFilter filter) {
+        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
+            s.filter = filter;
+            s.resolution_px = 256;
+        });
+    }
     std::vector<Pass> passes() const { return passes_of(frame->commands(), device); }
     std::vector<Pass> depth_passes() const { return depth_passes_of(frame->commands(), device); }
     const LightReport& light(const std::string& name) const {

@@ -38,7 +38,8 @@ protected:
         for (const gl::Finding& f : device.findings()) ADD_FAILURE() << gl::to_text(f.misuse) << ": " << f.detail;
     }
     const FrameReport& step() {
-        frame->run(world, {.viewport_px = {320, 180}, .exposure_ev = {}});
+        frame->run(world,
+                   {.viewport_px = {320, 180}, .exposure_ev = {}, .shadow_budget = {shadow::ShadowBudget::kUnlimited}});
         return frame->report();
     }
     std::vector<Pass> passes() const { return passes_of(frame->commands(), device); }

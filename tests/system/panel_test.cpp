@@ -140,7 +140,7 @@ TEST_F(Panel, BoundsWhatShadowsTakeAndLetsGo) {
     EXPECT_LE(taken, bytes);
     ASSERT_TRUE(hand->drag({"GPU, ms per frame"}, 0.5));
     EXPECT_GT(gui->panel.budget.gpu_ms, 0.0f);
-    ASSERT_TRUE(hand->click({"no bounds"}));
+    ASSERT_TRUE(hand->click({"defaults"}));
     EXPECT_EQ(gui->panel.budget, shadow::ShadowBudget{});
 }
 
@@ -202,6 +202,26 @@ TEST_F(Panel, SwitchesShadowsFitsMovementAndTheFrozenFrame) {
     EXPECT_TRUE(gui->panel.toggle_motion);
     ASSERT_TRUE(hand->click({"mark errors against ray-traced truth (F5)"}));
     EXPECT_TRUE(gui->panel.toggle_frozen);
+}
+
+TEST_F(Panel, MistComesAndGoes) {
+    const auto fogs = [&] {
+        std::size_t count = 0;
+        world.registry.each<FogVolume>([&](ecs::Entity, const FogVolume&) { ++count; });
+        return count;
+    };
+    ASSERT_TRUE(hand->drag({"mist"}, 0.5));
+    ASSERT_EQ(fogs(), 1u);
+    const float some = world.registry.get<FogVolume>(world.mist)->extinction_per_m;
+    EXPECT_GT(some, 0.0f);
+    ASSERT_TRUE(hand->drag({"mist"}, 1.5));
+    ASSERT_EQ(fogs(), 1u);
+    EXPECT_GT(world.registry.get<FogVolume>(world.mist)->extinction_per_m, some);
+    step();
+    ASSERT_TRUE(hand->drag({"mist"}, -0.5));
+    EXPECT_EQ(fogs(), 0u);
+    EXPECT_EQ(world.mist, ecs::kNull);
+    step();
 }
 
 TEST_F(Panel, NothingChangesWhileNothingIsClicked) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/gl/device_recording.h"
-#include "systems/shadow/request/map_textures.h"
 
 namespace gnomon {
 
@@ -27,7 +26,7 @@ inline std::vector<Pass> passes_of(const gl::CommandList& list, const gl::Record
         if (const auto* b = std::get_if<gl::BeginPass>(&command)) {
             const gl::TargetDesc* target = device.target(b->target);
             const auto is_triangles = [&](const gl::Attachment& colour) {
-                return device.texture(colour.texture)->format == shadow::kTriangleFormat;
+                return device.texture(colour.texture)->label.ends_with(", triangles");
             };
             const bool is_depth = target && std::all_of(target->colours.begin(), target->colours.end(), is_triangles);
             passes.push_back({groups.empty() ? "" : groups.back(), *b, is_depth, {}, {}, {}});

@@ -23,17 +23,6 @@ protected:
         FrameTest::SetUp();
         stage = world.add_stage();
     }
-    ecs::Entity add_light(LightKind kind, const std::string& name, ShadowFilter filter) {
-        const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
-        choose(light, filter);
-        return light;
-    }
-    void choose(ecs::Entity light, ShadowFilter filter) {
-        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
-            s.filter = filter;
-            s.resolution_px = 256;
-        });
-    }
     std::vector<std::string> ray_labels() const {
         std::vector<std::string> labels = map_labels(device, "ray ");
         for (const char* other : {"surface places", "verdicts of maps", "answers of rays", "pixels for rays"})

@@ -151,7 +151,7 @@ TEST_P(OneSpot, GetsASecondStoreWhenItsMoverMovesAgainAndLosesItASecondAfterItRe
     EXPECT_EQ(copies(), textures) << "what was drawn is kept";
     EXPECT_EQ(light("lamp").counts.clears, 1u);
     EXPECT_EQ(light("lamp").counts.views_drawn, 1u);
-    const std::uint64_t texel = GetParam() == ShadowFilter::triangles ? 12 : 4;
+    const std::uint64_t texel = GetParam() == ShadowFilter::triangles ? 8 : 4;
     EXPECT_EQ(light("lamp").counts.bytes, alone + texel * kMap_px * kMap_px);
     nudge(), step();
     EXPECT_EQ(copies(), textures);

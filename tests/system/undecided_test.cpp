@@ -97,6 +97,16 @@ TEST_F(Undecided, LightsEachBeginWithAllSurfaces) {
     EXPECT_THAT(copied_areas(), SizeIs(two));
 }
 
+TEST_F(Undecided, AreLeftOutByEveryFilterOfTriangles) {
+    for (const shadow::FilterRow& row : shadow::filter_table()) {
+        if (!row.storage.triangle_ids) continue;
+        choose(row.id);
+        for (int i = 0; i < 3; ++i) step();  // frames may make but one program each
+        ASSERT_THAT(lamp_passes(), SizeIs(1)) << row.name;
+        EXPECT_THAT(lamp_passes()[0].pipelines, SizeIs(2)) << row.name;
+    }
+}
+
 TEST_F(Undecided, NoOtherFilterPaysForThem) {
     for (const shadow::FilterRow& row : shadow::filter_table()) {
         if (row.storage.triangle_ids) continue;

@@ -202,6 +202,7 @@ std::uint32_t GlbBuilder::add_light(const LightSpec& spec) {
     light.type = spec.type;
     light.color = numbers_of(spec.colour);
     light.intensity = spec.intensity;
+    light.range = spec.range_m;
     if (spec.cone) {
         light.spot.innerConeAngle = spec.cone->inner_rad;
         light.spot.outerConeAngle = spec.cone->outer_rad;

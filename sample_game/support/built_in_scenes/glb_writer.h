@@ -69,6 +69,7 @@ struct LightSpec {
     glm::dvec3 colour{1.0};
     double intensity = 1.0;
     std::optional<ConeSpec> cone = {};
+    double range_m = 0.0;  // 0: without an end
 };
 
 /// Perspective camera without an end.

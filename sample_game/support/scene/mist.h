@@ -7,7 +7,8 @@ namespace gnomon::game {
 /// Largest share of light that mist may take per metre.
 inline constexpr float kMostMist_per_m = 10.0f;
 
-/// Adds mist to all of a scene within these bounds: a FogVolume of white droplets. Nothing for empty bounds.
-void add_mist(const math::Aabb& bounds_ws, float extinction_per_m, ecs::Registry& registry);
+/// Sets the mist in all of a scene within these bounds: a FogVolume of white droplets. `mist`: its entity, kNull: none.
+/// Adds it above 0 per metre, removes it at 0. Nothing for empty bounds.
+void set_mist(const math::Aabb& bounds_ws, float extinction_per_m, ecs::Entity& mist, ecs::Registry& registry);
 
 }  // namespace gnomon::game

@@ -71,7 +71,7 @@ constexpr std::array kKernelRows{
     LightSetting{.key = "filter_seed",
                  .field = "ShadowTuning::kernel.seed",
                  .values = "screen | world",
-                 .meaning = "what poisson_rotated, _stratified, pcss and exact_soft differ by",
+                 .meaning = "what poisson_rotated, _stratified, pcss, soft_triangles and exact_soft differ by",
                  .set = set_word<Kernel<&K::seed>>,
                  .get = get_word<Kernel<&K::seed>>,
                  .editor = kChoice,

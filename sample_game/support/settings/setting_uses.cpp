@@ -58,6 +58,7 @@ bool for_offset_texel(Settings s, LightKind kind) {
     return for_offset_m(s, kind) && s.tuning.bias.mode != BiasMode::constant;
 }
 bool for_automatic_bias(Settings s, LightKind) { return s.tuning.bias.mode == BiasMode::automatic; }
+bool for_proxies(Settings s, LightKind kind) { return for_depths(s, kind) && for_automatic_bias(s, kind); }
 
 bool has_eye(Settings s, LightKind kind) {
     return for_sun(s, kind) && s.tuning.projection.kind == LightProjection::perspective;
@@ -81,20 +82,22 @@ constexpr std::array kBasic{
     SettingUse{"filter"},
     SettingUse{"max_error_px"},
     SettingUse{"narrowest_caster_px"},
-    SettingUse{"source_radius_m", for_lamp_source,
-               "a disc, sphere or tube; a spot or point light with filter pcss, pcss_moments or exact_soft"},
+    SettingUse{
+        "source_radius_m", for_lamp_source,
+        "a disc, sphere or tube; a spot or point light with filter pcss, pcss_moments, soft_triangles or exact_soft"},
     SettingUse{"source_width_m", for_width, "a rectangle or tube"},
     SettingUse{"source_height_m", for_height, "a rectangle"},
-    SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments or exact_soft"},
+    SettingUse{"sun_radius_deg", for_sun_source, "a sun with filter pcss, pcss_moments, soft_triangles or exact_soft"},
 };
 constexpr std::array kQuality{
-    SettingUse{"antialias", for_area_shares, "filter automatic, triangles, exact, exact_soft or pcss"},
+    SettingUse{"antialias", for_area_shares, "filter automatic, triangles, exact, exact_soft, pcss or soft_triangles"},
     SettingUse{"resolution"},
     SettingUse{"caster_faces", for_depths, "a filter other than exact and exact_soft"},
     SettingUse{"layers"},
     SettingUse{"translucent_casters"},
     SettingUse{"penumbra_rays", for_source_rays, "filter exact_soft"},
-    SettingUse{"filter_seed", for_seed, "filter poisson_rotated, poisson_stratified, pcss or exact_soft"},
+    SettingUse{"filter_seed", for_seed,
+               "filter poisson_rotated, poisson_stratified, pcss, soft_triangles or exact_soft"},
     SettingUse{"filter_cell_m", for_cells, "a filter with random taps, and filter_seed world"},
 };
 constexpr std::array kCascades{
@@ -111,6 +114,8 @@ constexpr std::array kCost{
     SettingUse{"depth_format", for_depths, "a filter other than exact and exact_soft"},
     SettingUse{"cube_route", for_point, "a point light"},
     SettingUse{"multi_draw"},
+    SettingUse{"short_references"},
+    SettingUse{"proxies", for_proxies, "bias automatic, and a filter other than exact and exact_soft"},
     SettingUse{"early_bail", for_many_taps, "a filter of many taps"},
     SettingUse{"economy"},
     SettingUse{"keep_visibility"},

@@ -231,6 +231,20 @@ constexpr std::array kMapsRows{
                  .set = set_switch<Maps<&M::multi_draw>>,
                  .get = get_switch<Maps<&M::multi_draw>>,
                  .editor = kToggle},
+    LightSetting{.key = "proxies",
+                 .field = "ShadowTuning::maps.proxies",
+                 .values = "on | off",
+                 .meaning = "on: coarser meshes cast where that moves no edge by more than a share of a pixel",
+                 .set = set_switch<Maps<&M::proxies>>,
+                 .get = get_switch<Maps<&M::proxies>>,
+                 .editor = kToggle},
+    LightSetting{.key = "short_references",
+                 .field = "ShadowTuning::maps.short_references",
+                 .values = "on | off",
+                 .meaning = "off: maps name triangles by two numbers a texel; shadows are the same",
+                 .set = set_switch<Maps<&M::short_references>>,
+                 .get = get_switch<Maps<&M::short_references>>,
+                 .editor = kToggle},
 };
 
 using R = ShadowTuning::Reuse;

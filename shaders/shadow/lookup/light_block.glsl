@@ -8,7 +8,8 @@ struct ViewRecord {
     vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta
                             // (bias/automatic.glsl)
     vec4 numeric;           // x: rounding of depth, in depth.
-                            // y: how far a caster may have moved since the map was drawn, metres.
+                            // y: how far a caster may have moved since the map was drawn, metres. Negative: minus
+                            // the farthest that a coarser mesh in its place is off (kept_off_m()).
                             // z: alpha (bias/automatic.glsl); of a cascade the view distance from which it fades.
                             // w: layer of the map. -1: no map, since nothing can darken what the view serves.
     vec4 anchor_from_camera;   // xyz: camera's anchor minus the view's, metres. Added to a camera-anchored position it
@@ -27,7 +28,8 @@ layout(std140, binding = kLightBlock) uniform LightBlock {
                                // cube faces; of a point light the quaternion cube_turn()
     ivec4 options;             // x: number of views; y: BiasMode, 0: automatic.
                                // z: 1 if cascades are chosen by view distance; w: a bit per layer that has a view.
-    vec4 bias;                 // manual bias: x: metres, z: texels; y: share of a cascade that fades
+    vec4 bias;                 // manual bias: x: metres, z: texels; y: share of a cascade that fades.
+                               // w: how far a coarser mesh may be off, per metre from camera to receiver
     ivec4 filtering;           // x: texels along a grid's edge; y: number of taps; z: 1: bails early; w: 1: seeds come
                                // from the world
     vec4 spread;               // see shadow/lookup/tap_radius.glsl
@@ -39,9 +41,22 @@ layout(std140, binding = kLightBlock) uniform LightBlock {
                                // all casters at their true distance. y: distance of the nearest caster that they do
                                // not contain whole, metres.
     vec4 moment_sampling;      // x: share of light that counts as dark; y: most texels of a pixel's footprint; z: most
-                               // taps along it
+                               // taps along it.
+                               // w: bits of a triangle's number in a texel (shadow/filters/triangles/gathered_ids.glsl)
     vec4 low;                  // Sun: xyz: low part of `to_light`. Lamp: xyz: offset from `position` to the place from
                                // which shadows are computed. That is the lamp in double, or just clear of a caster
                                // that it touches. w: 1: its edges are antialiased (shadow/filters/triangles)
     ViewRecord views[kMaxViews];
 } light;
+
+// Returns how far casters may be from what the view shows in their place, metres. A coarser mesh is off by the less, the
+// nearer its shadow is to the camera (systems/shadow/fitting/choose_proxies.h).
+float kept_off_m(ViewRecord view, vec3 position_ca) {
+    return view.numeric.y < 0.0 ? min(-view.numeric.y, light.bias.w * length(position_ca)) : view.numeric.y;
+}
+
+// Moves a receiver off what the view shows of coarser meshes, for filters that test triangles. A mesh then does not
+// darken itself by its own proxy.
+vec3 off_proxies(ViewRecord view, vec3 position_ca, vec3 normal) {
+    return view.numeric.y < 0.0 ? position_ca + normal * kept_off_m(view, position_ca) : position_ca;
+}

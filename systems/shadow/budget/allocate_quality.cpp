@@ -81,6 +81,9 @@ constexpr double kLeastShare = 1.0e-12;
 
 std::uint64_t less_by(std::uint64_t before, std::uint64_t after) { return before > after ? before - after : 0; }
 
+/// Price added to steps that take more than texels of a light with LightLoad::sizes_first: above that of any other.
+constexpr double kLaterPrice = 1.0 / kLeastShare;
+
 class Taking {
 public:
     Taking(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
@@ -154,7 +157,9 @@ private:
         for (const QualityLimits& less : next) {
             const Cost cost = cost_of(loads_[load], less, factors_);
             const double freed = share_of(less_by(now.bytes, cost.bytes), less_by(now.ns, cost.ns));
-            const double price = std::max(cost.harm - now.harm, 0.0) / freed;
+            const bool shrinks = less.most_px < grants_[load].most_px || less.most_views < grants_[load].most_views;
+            const double last_resort = loads_[load].sizes_first && !shrinks ? kLaterPrice : 0.0;
+            const double price = last_resort + std::max(cost.harm - now.harm, 0.0) / freed;
             if (!(freed > 0.0) || (found && !(price < best.price))) continue;
             best = {price, load, less, cost};
             found = true;
@@ -223,8 +228,9 @@ std::uint64_t with_room(std::uint64_t limit) {
 }  // namespace
 
 BudgetLimits limits_of(const ShadowBudget& budget) {
+    static_assert(ShadowBudget::kUnlimited == BudgetLimits::kNone);
     BudgetLimits limits;
-    if (budget.bytes > 0) limits.bytes = budget.bytes;
+    if (budget.bytes > 0) limits.bytes = budget.bytes;  // ShadowBudget::kUnlimited is kNone
     const double ns = static_cast<double>(budget.gpu_ms) * 1.0e6;
     if (ns > 0.0 && ns < 1.0e18) limits.ns = std::max<std::uint64_t>(static_cast<std::uint64_t>(ns), 1);
     return limits;

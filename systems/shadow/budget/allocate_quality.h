@@ -16,6 +16,7 @@ struct BudgetLimits {
     std::uint64_t bytes = kNone, ns = kNone;
     bool operator==(const BudgetLimits&) const = default;
 };
+/// Returns the limits that the budget names, without the automatic one (automatic_limit.h).
 BudgetLimits limits_of(const ShadowBudget& budget);
 
 struct BudgetUse {

@@ -6,6 +6,7 @@
 #include "engine/core/signature.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/budget/automatic_limit.h"
 #include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/request/accuracy_target.h"
@@ -134,6 +135,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
         set_most(*load.light, load.wanted.limits.max_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
+    load.sizes_first = is_automatic();
     load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.budget.activity) : 1.0;
     double extent_px = 0.0;
     for (const ShadowView& view : inputs.fitted.views_of(light)) {
@@ -148,7 +150,8 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     const auto fewer = static_cast<double>(load.wanted.map.view_count) - static_cast<double>(fitted.map.view_count);
     extent_px *= std::exp2(-fewer);  // each cascade about doubles the depth range that one texel size serves
     const std::uint32_t needed = needed_px(*load.light, load.wanted, fitted, extent_px);
-    load.extent_px = extent_px * fitted.map.resolution_px / needed;
+    const double seen_px = is_automatic() ? usual_extent_px(scene, inputs, light) * std::exp2(-fewer) : extent_px;
+    load.extent_px = seen_px * fitted.map.resolution_px / needed;
     if (needed != load.wanted.map.resolution_px) set_resolution(*load.light, needed, load.wanted);
     const auto points = inputs.fitted.sets_of(inputs.sets, light).receiver_points_ws();
     for (const ConsumerItem& consumer : scene.consumers) {
@@ -156,6 +159,22 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
         load.weight = std::max(load.weight, seen_share(points, consumer));
     }
     return load;
+}
+
+/// Returns the usual extent of a texel on screen over what is seen of the light's receivers, pixels. All views count
+/// alike: a sun's cascades share the picture, however many points lie far away.
+double BudgetStage::usual_extent_px(const SceneSnapshot& scene, const BudgetInputs& inputs, std::uint32_t light) {
+    double log2_px = 0.0, views = 0.0;
+    const auto points = inputs.fitted.sets_of(inputs.sets, light).error_points_ws();
+    for (const ShadowView& view : inputs.fitted.views_of(light)) {
+        if (view.casters.count == 0) continue;
+        ExtentSum sum;
+        for (const ConsumerItem& consumer : scene.consumers) add_extents(consumer, points, view, sum);
+        if (sum.points == 0) continue;
+        log2_px += sum.log2_px / static_cast<double>(sum.points);
+        views += 1.0;
+    }
+    return views > 0.0 ? std::exp2(log2_px / views) : 0.0;
 }
 
 /// Weighs each light's shadow by brightness. Lightness grows with the cube root of luminance (CIE 1976).
@@ -187,6 +206,7 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
         if (choice.request.skip != Reason::none) continue;
         const LightFitHistory& entry = next.lights[held++];
         if (statuses[i].is_skipped() || choice.views.count == 0) continue;
+        if (is_automatic() && !leaves_size(scene.lights[i])) continue;
         if (inputs.waiting_bytes[i]) {
             fixed_bytes += *inputs.waiting_bytes[i];
             continue;
@@ -200,10 +220,22 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
     return fixed_bytes;
 }
 
+void BudgetStage::apply_automatic(const SceneSnapshot& scene, const FittedViews& fitted, const History& held,
+                                  std::span<const LightStatus> statuses) {
+    given_bytes_ = 0;
+    if (automatic_bytes_ == BudgetLimits::kNone) return;
+    const WantedBytes wanted = wanted_bytes(scene, fitted, statuses);
+    if (held.short_of_bytes || wanted.limited > automatic_bytes_)
+        limits_.bytes = std::min(limits_.bytes, automatic_bytes_);
+    // A lower limit is what the device has: nothing comes on top of that.
+    if (limits_.bytes >= automatic_bytes_) given_bytes_ = wanted.given;
+}
+
 void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs, History& next,
                          std::vector<BudgetDecision>& decisions, const LightAccounts& accounts) {
     decisions.clear();
     for (const FitChoice& choice : inputs.fitted.lights) decisions.push_back({choice.request});
+    next.short_of_bytes = false;
     next.frames_since_grants = is_active() ? inputs.held.frames_since_grants : 0;
     outcomes_.clear();
     if (!is_active()) {
@@ -233,6 +265,14 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
         if (decision.request.note != note) accounts.statuses[lights_[i]].degrade(decision.request.note);
     }
     decided_factors_ = factors_;
+    next.short_of_bytes = is_automatic() && (is_any_less() || next.frames_since_grants < kFramesToRegrant);
+}
+
+/// Returns whether any light has less than it wants.
+bool BudgetStage::is_any_less() const {
+    for (std::size_t i = 0; i < loads_.size(); ++i)
+        if (is_less(*loads_[i].light, loads_[i].wanted, grants_[i])) return true;
+    return false;
 }
 
 DrawAllowance BudgetStage::draw_allowance() const {

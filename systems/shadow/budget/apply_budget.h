@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,13 +40,24 @@ struct DrawAllowance {
 /// light's error cost. A light that loses quality does so in the same frame, a light that gains it in the next.
 class BudgetStage {
 public:
-    /// Sets the budget and the cost factors. Call it first in each frame in which the stages run.
-    void begin(const BudgetLimits& limits, const CostFactors& factors) {
+    /// Sets the budget and the cost factors. Call it first in each frame in which the stages run. `automatic_bytes`:
+    /// limit for apply_automatic(); kNone: there is none.
+    void begin(const BudgetLimits& limits, std::uint64_t automatic_bytes, const CostFactors& factors) {
         limits_ = limits;
+        automatic_bytes_ = automatic_bytes;
         factors_ = factors;
     }
+    /// Applies the automatic limit if lights want more, or still did in the last frame (automatic_limit.h). Call it
+    /// after the fits.
+    void apply_automatic(const SceneSnapshot& scene, const FittedViews& fitted, const History& held,
+                         std::span<const LightStatus> statuses);
     bool is_active() const { return !(limits_ == BudgetLimits{}); }
     const BudgetLimits& limits() const { return limits_; }
+    /// Returns the limit on the bytes of all maps; kNone: there is none. Valid after apply_automatic().
+    std::uint64_t map_limit() const { return with_given(limits_.bytes); }
+    /// Returns the bytes up to which maps of unseen lights may be kept; kNone: any. Valid after
+    /// apply_automatic().
+    std::uint64_t keep_limit() const { return std::min(map_limit(), with_given(automatic_bytes_)); }
 
     /// Decides what is left of each light's request, one entry per light, and writes the lights' limits to `next`. A
     /// light that gets no map is skipped with over_budget.
@@ -65,9 +77,17 @@ private:
                           const History& next, std::span<const LightStatus> statuses);
     LightLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs, std::uint32_t light,
                       const LightFitHistory& next) const;
+    static double usual_extent_px(const SceneSnapshot& scene, const BudgetInputs& inputs, std::uint32_t light);
     void weigh(const SceneSnapshot& scene, const BudgetInputs& inputs);
+    bool is_any_less() const;
+    bool is_automatic() const { return automatic_bytes_ != BudgetLimits::kNone && limits_.bytes == automatic_bytes_; }
+    std::uint64_t with_given(std::uint64_t bytes) const {
+        return bytes > BudgetLimits::kNone - given_bytes_ ? BudgetLimits::kNone : bytes + given_bytes_;
+    }
 
     BudgetLimits limits_;
+    std::uint64_t automatic_bytes_ = BudgetLimits::kNone;
+    std::uint64_t given_bytes_ = 0;  // bytes on top of the automatic limit
     CostFactors factors_, decided_factors_;
     std::vector<LightLoad> loads_;        // lights that would have maps
     std::vector<QualityLimits> grants_;   // one per load

@@ -44,6 +44,8 @@ struct LightLoad {
     double activity = 0.0;    // share of its views that are drawn in a frame, 0 to 1
     double pixels = 0.0;      // number of pixels that look it up
     std::uint32_t views = 0;  // number of fitted views
+    /// All maps shrink to kLeastGranted_px before its filter, its updates or its shadow go: the automatic limit.
+    bool sizes_first = false;
     std::uint64_t triangles = 0, draws = 0;  // work of drawing all views; may be 0 if none is drawn
 };
 

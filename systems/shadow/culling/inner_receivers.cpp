@@ -29,6 +29,7 @@ public:
 
     void build_hull() {
         scratch_.corners_ws_m.clear();
+        scratch_.known.assign(scene_.tree.numbers(), kUnknown);
         for (int x = -1; x <= 1; ++x)
             for (int y = -1; y <= 1; ++y)
                 for (int z = -1; z <= 1; ++z)
@@ -46,14 +47,16 @@ public:
         scratch_.inner.clear();
         scratch_.marks.clear(scene_.instances.size());
         bool inner = false;
-        const auto classify = [&](const math::Aabb& box) {
-            if (is_outside(box)) return Overlap::outside;
+        std::size_t last_facet = 0;
+        const auto classify = [&](const math::Aabb& box, math::OpenTests& open) {
+            if (math::overlap(volume_.planes, box, open) == Overlap::outside || !math::overlaps(volume_.limit, box))
+                return Overlap::outside;
             // A box that reaches beyond the limit may have parts outside.
-            inner = math::intersection(box, volume_.limit) == box && scratch_.hull.contains(box);
+            inner = math::intersection(box, volume_.limit) == box && scratch_.hull.contains(box, last_facet);
             return inner ? Overlap::inside : Overlap::partial;
         };
         // An instance is visited right after it, or a box around it, was classified.
-        visit_instances(scene_, classify, [&](std::uint32_t i) {
+        visit_instances(scene_, math::open_tests(volume_.planes.size()), classify, [&](std::uint32_t i) {
             if (!scratch_.wanted.contains(i)) return;
             if (inner)
                 scratch_.inner.push_back(i);
@@ -65,6 +68,9 @@ public:
     }
 
 private:
+    /// What is known of a box of the tree: SplitScratch::known.
+    enum : std::uint8_t { kUnknown, kOutside, kMayTouch, kInCore, kNotInCore };
+
     bool is_outside(const math::Aabb& box) const {
         return math::overlap(volume_.planes, box) == Overlap::outside || !math::overlaps(volume_.limit, box);
     }
@@ -74,6 +80,22 @@ private:
                math::overlap(volume_.core, box) == Overlap::inside;
     }
 
+    /// Returns whether a box of the tree may touch the core. Tests each box once for all
+    /// directions.
+    bool may_touch_core(const math::Aabb& box, std::uint32_t number) {
+        std::uint8_t& known = scratch_.known[number];
+        if (known == kUnknown)
+            known = is_outside(box) || math::overlap(volume_.core, box) == Overlap::outside ? kOutside : kMayTouch;
+        return known != kOutside;
+    }
+
+    /// Returns whether an item of the tree that may touch the core is a receiver within it.
+    bool is_wanted_in_core(std::uint32_t item, const math::Aabb& box, std::uint32_t number) {
+        std::uint8_t& known = scratch_.known[number];
+        if (known == kMayTouch) known = scratch_.wanted.contains(item) && is_in_core(box) ? kInCore : kNotInCore;
+        return known == kInCore;
+    }
+
     /// Adds the corner of a receiver within the core that is farthest along a direction, unless it is there.
     void add_farthest(const glm::dvec3& direction) {
         std::vector<glm::dvec3>& corners = scratch_.corners_ws_m;
@@ -81,20 +103,19 @@ private:
         const auto corner_of = [&](const math::Aabb& box) {
             return farthest_corner(math::intersection(box, volume_.limit), direction);
         };
-        const auto rank = [&](const math::Aabb& box) {
-            const bool outside = is_outside(box) || math::overlap(volume_.core, box) == Overlap::outside;
-            return outside ? kInfinity : -glm::dot(direction, corner_of(box));
+        const auto rank = [&](const math::Aabb& box, std::uint32_t number) {
+            return may_touch_core(box, number) ? -glm::dot(direction, corner_of(box)) : kInfinity;
         };
         glm::dvec3 found;
-        const auto value = [&](std::uint32_t i, double lowest) {
+        const auto value = [&](std::uint32_t i, double lowest, std::uint32_t number) {
             const math::Aabb box = math::intersection(scene_.instances[i].bounds_ws, volume_.limit);
             const glm::dvec3 corner = farthest_corner(box, direction);
             const double at = -glm::dot(direction, corner);
-            if (!(at < lowest) || !scratch_.wanted.contains(i) || !is_in_core(box)) return lowest;
+            if (!(at < lowest) || !is_wanted_in_core(i, box, number)) return lowest;
             found = corner;
             return at;
         };
-        if (!(lowest_of_instances(scene_, rank, value) < kInfinity)) return;
+        if (!(scene_.tree.lowest_by_number(rank, value) < kInfinity)) return;
         if (std::find(corners.begin(), corners.end(), found) == corners.end()) corners.push_back(found);
     }
 

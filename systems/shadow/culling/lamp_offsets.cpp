@@ -67,7 +67,7 @@ void LampOffsets::find_near(const SceneSnapshot& scene, const LightItem& light, 
     visit_instances(scene, touches, [&](std::uint32_t i) {
         const InstanceItem& item = scene.instances[i];
         if (!casts_under(light, item)) return;
-        const math::ShapeTree* shape = item.mesh < scene.shapes.size() ? scene.shapes[item.mesh].get() : nullptr;
+        const math::ShapeTree* shape = shape_of(scene.meshes, item.mesh);
         const double clear_m = share * math::farthest_distance(item.bounds_ws, lamp_ws_m);
         if (!shape || may_touch(*shape, item, item.translation_ws_m - lamp_ws_m, clear_m, scratch_)) near_.add(i);
     });

@@ -73,7 +73,7 @@ double nearest_receiver_m(const SceneSnapshot& scene, const ConsumerItem& consum
         const InstanceItem& item = scene.instances[i];
         if (!item.visible || !item.receives || (item.receive_layers & layers) == 0) return lowest;
         if (kinds == ReceiverKinds::surfaces && is_air(item)) return lowest;
-        const math::ShapeTree* shape = item.mesh < scene.shapes.size() ? scene.shapes[item.mesh].get() : nullptr;
+        const math::ShapeTree* shape = shape_of(scene.meshes, item.mesh);
         if (shape) {
             const Sight sight = carried(own, item.basis, item.translation_ws_m - consumer.position_ws_m);
             if (is_finite(sight)) return shape->lowest(sight.depth_m, sight.within(), lowest, scratch);

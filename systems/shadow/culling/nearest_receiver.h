@@ -11,8 +11,8 @@ namespace gnomon::shadow {
 enum class ReceiverKinds : std::uint8_t { all, surfaces };
 
 /// Returns a lower bound on the view depth, metres, of all receivers on any of `layers` in the camera's frustum.
-/// Infinite: there are none. Uses scene.shapes, or the instance's bounding box where its mesh has no shape, as of air.
-/// `scratch` is overwritten.
+/// Infinite: there are none. Uses the meshes' shapes, or the instance's bounding box where its mesh has no shape, as of
+/// air. `scratch` is overwritten.
 double nearest_receiver_m(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
                           std::vector<glm::dvec3>& scratch, ReceiverKinds kinds = ReceiverKinds::all);
 

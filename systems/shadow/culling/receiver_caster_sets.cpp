@@ -69,15 +69,10 @@ private:
         for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
             scratch_.marks.clear(scene_.instances.size());
             const auto planes = math::planes_of(out_.camera_frusta[c]);
-            const auto classify = [&](const math::Aabb& box) {
-                const Overlap seen = math::overlap(planes, box);
-                if (seen == Overlap::outside) return seen;
-                const Overlap reached = reach_.overlap(box);
-                return reached == Overlap::inside ? seen : reached;
-            };
-            visit_instances(scene_, classify, [&](std::uint32_t i) {
-                const InstanceItem& item = scene_.instances[i];
-                if (item.visible && receives_under(light_, item)) scratch_.marks.add(i);
+            const SeenReach seen(planes, reach_);
+            const auto classify = [&](const math::Aabb& box, math::OpenTests& open) { return seen.overlap(box, open); };
+            visit_instances(scene_, seen.tests(), classify, [&](std::uint32_t i) {
+                if (scratch_.layers.shows_shadows_of(light_, i)) scratch_.marks.add(i);
             });
             const std::size_t first = scratch_.candidates.size();
             scratch_.marks.for_each([&](std::uint32_t i) { scratch_.candidates.push_back(i); });
@@ -202,7 +197,7 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, con
 /// Marks the casters of an area light that touch the box around its source and all receivers. Every way from one to the
 /// other lies in it.
 void mark_around_source(const SceneSnapshot& scene, const LightItem& light, std::span<const glm::dvec3> points_ws,
-                        IndexSet& marks) {
+                        SetScratch& scratch) {
     const double reach_m = static_cast<double>(source_extent(light));
     math::Aabb around{light.position_ws_m - reach_m, light.position_ws_m + reach_m};
     for (const glm::dvec3& point : points_ws) around = math::merged(around, {point, point});
@@ -212,7 +207,7 @@ void mark_around_source(const SceneSnapshot& scene, const LightItem& light, std:
             return math::is_empty(math::intersection(around, box)) ? Overlap::outside : Overlap::partial;
         },
         [&](std::uint32_t i) {
-            if (casts_under(light, scene.instances[i])) marks.add(i);
+            if (scratch.layers.casts_under(light, i)) scratch.marks.add(i);
         });
 }
 
@@ -237,16 +232,16 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
         const SweptVolume volume =
             swept_volume(receiver_hull, scratch.polygon, seen_by_the_only_consumer(out.camera_frusta), reach_m);
         visit_instances(
-            scene, [&](const math::Aabb& box) { return overlap(volume, box); },
+            scene, tests_of(volume),
+            [&](const math::Aabb& box, math::OpenTests& open) { return overlap(volume, box, open); },
             [&](std::uint32_t i) {
-                if (casts_under(light, scene.instances[i])) scratch.marks.add(i);
+                if (scratch.layers.casts_under(light, i)) scratch.marks.add(i);
             });
     }
     if (has_size && light_facts(light.kind).area())
         for (std::uint32_t b = 0; b < hulls.count; ++b) {
             const IndexRange points = out.hulls[hulls.first + b].receiver_points;
-            if (points.count > 0)
-                mark_around_source(scene, light, slice(out.receiver_points_ws, points), scratch.marks);
+            if (points.count > 0) mark_around_source(scene, light, slice(out.receiver_points_ws, points), scratch);
         }
     const std::size_t first = out.caster_items.size();
     scratch.marks.for_each([&](std::uint32_t i) { out.caster_items.push_back(i); });
@@ -256,11 +251,11 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
 /// Half-space without a point.
 constexpr math::Plane kNothing{glm::dvec3(0.0), -1.0};
 
-/// Returns the camera's frustum from its nearest receiver on. Without scene.shapes it is the whole frustum: bounding
-/// boxes do not help, because a camera is inside of the larger ones.
+/// Returns the camera's frustum from its nearest receiver on. Without shapes of meshes it is the whole frustum:
+/// bounding boxes do not help, because a camera is inside of the larger ones.
 math::Frustum seen_receivers(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
                              SetScratch& scratch) {
-    if (scene.shapes.empty()) return consumer_frustum(consumer);
+    if (scene.meshes.shapes.empty()) return consumer_frustum(consumer);
     const double from_m = nearest_receiver_m(scene, consumer, layers, scratch.points_ws);
     if (std::isfinite(from_m)) return consumer_frustum(consumer, std::max(consumer.near_m, from_m));
     math::Frustum nothing = consumer_frustum(consumer);
@@ -281,16 +276,13 @@ bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, c
     if (light_facts(light.kind).parallel) return true;
     const LightReach reach(light);
     const math::Frustum frustum = consumer_frustum(consumer);
-    const auto planes = math::planes_of(frustum);
+    const SeenReach seen(math::planes_of(frustum), reach);
     bool found = false;
-    const auto classify = [&](const math::Aabb& box) {
-        if (found) return Overlap::outside;
-        const Overlap seen = math::overlap(planes, box);
-        if (seen == Overlap::outside) return seen;
-        const Overlap reached = reach.overlap(box);
-        return reached == Overlap::inside ? seen : reached;
+    const auto classify = [&](const math::Aabb& box, math::OpenTests& open) {
+        return found ? Overlap::outside : seen.overlap(box, open);
     };
-    visit_instances(scene, classify, [&](std::uint32_t i) { found = found || scene.instances[i].visible; });
+    visit_instances(scene, seen.tests(), classify,
+                    [&](std::uint32_t i) { found = found || scene.instances[i].visible; });
     return found;
 }
 
@@ -310,6 +302,7 @@ LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, con
 void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, SetScratch& scratch, ReceiverCasterSets& sets,
                  const LightAccounts& accounts) {
     sets.clear();
+    scratch.layers.update(scene);
     const ShadowLayers layers = layers_of_all(scene, inputs.requests);
     for (const ConsumerItem& consumer : scene.consumers) {
         sets.camera_frusta.push_back(seen_receivers(scene, consumer, layers, scratch));

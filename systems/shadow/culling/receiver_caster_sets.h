@@ -25,7 +25,8 @@ struct SetInputs {
 void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, SetScratch& scratch, ReceiverCasterSets& sets,
                  const LightAccounts& accounts);
 
-/// Finds the sets of one light and appends them to the arrays of `out`, which must already contain the camera frusta.
+/// Finds the sets of one light and appends them to the arrays of `out`. Call after select_sets() for the same scene,
+/// `scratch` and `out`: it uses their layers and camera frusta.
 LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, const ShadowRequest& request,
                             const glm::dvec3& lamp_ws_m, SetScratch& scratch, ReceiverCasterSets& out);
 

@@ -172,6 +172,9 @@ private:
     SweptVolume volume_;
 };
 
+/// Bits of the tests beside those of the planes.
+constexpr math::OpenTests kBoundsTest = math::OpenTests{1} << SweptVolume::kMostPlanes, kBallTest = kBoundsTest << 1;
+
 bool holds(const math::Aabb& outer, const math::Aabb& inner) {
     return glm::all(glm::lessThanEqual(outer.min, inner.min)) && glm::all(glm::lessThanEqual(inner.max, outer.max));
 }
@@ -194,6 +197,26 @@ math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box) {
     if (planes == math::Overlap::inside && !holds(volume.bounds, box)) planes = math::Overlap::partial;
     if (planes == math::Overlap::outside || !std::isfinite(volume.reach_m)) return planes;
     return both(planes, math::overlap_ball(volume.origin_ws_m, volume.reach_m, box));
+}
+
+math::OpenTests tests_of(const SweptVolume& volume) {
+    return math::open_tests(volume.plane_count) | kBoundsTest | (std::isfinite(volume.reach_m) ? kBallTest : 0);
+}
+
+math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box, math::OpenTests& open) {
+    if ((open & kBoundsTest) != 0 && !math::overlaps(volume.bounds, box)) return math::Overlap::outside;
+    math::Overlap result = math::overlap({volume.planes.data(), volume.plane_count}, box, open);
+    if (result == math::Overlap::outside) return result;
+    if ((open & kBoundsTest) != 0) {
+        if (holds(volume.bounds, box))
+            open &= ~kBoundsTest;
+        else
+            result = math::Overlap::partial;
+    }
+    if ((open & kBallTest) == 0) return result;
+    const math::Overlap ball = math::overlap_ball(volume.origin_ws_m, volume.reach_m, box);
+    if (ball == math::Overlap::inside) open &= ~kBallTest;
+    return both(result, ball);
 }
 
 }  // namespace gnomon::shadow

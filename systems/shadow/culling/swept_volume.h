@@ -31,4 +31,9 @@ SweptVolume swept_volume(const ReceiverHull& receiver_hull, std::span<const glm:
 /// Classifies a box against the volume.
 math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box);
 
+/// Does the same with the tests in `open`, and clears the tests that no box within this one needs (math::OpenTests).
+math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box, math::OpenTests& open);
+/// Returns all tests of the volume: its planes, its bounds and its ball.
+math::OpenTests tests_of(const SweptVolume& volume);
+
 }  // namespace gnomon::shadow

@@ -66,9 +66,10 @@ private:
             view_.held ? std::span<const math::Plane>() : seen_by_the_only_consumer(sets_.arrays.camera_frusta);
         const SweptVolume volume = swept_volume(receiver_hull, scratch_.polygon, seen, reach_m);
         visit_instances(
-            scene_, [&](const math::Aabb& box) { return overlap(volume, box); },
+            scene_, tests_of(volume),
+            [&](const math::Aabb& box, math::OpenTests& open) { return overlap(volume, box, open); },
             [&](std::uint32_t i) {
-                if (casts_under(light_, scene_.instances[i])) scratch_.marks.add(i);
+                if (scratch_.layers.casts_under(light_, i)) scratch_.marks.add(i);
             });
     }
 

@@ -147,7 +147,9 @@ void BoundsPass::record_view(const PassInputs& in, const View& drawn, std::uint3
             list.add(gl::DrawPulled{first * kQuadVertices, count * kQuadVertices});
         ++report.counts.draws;
         ++report.counts.draw_commands;
-        report.counts.triangles += (is_small(which) ? 1 : 2) * std::uint64_t{count};
+        const std::uint64_t triangles = (is_small(which) ? 1 : 2) * std::uint64_t{count};
+        report.counts.triangles += triangles;
+        report.counts.full_triangles += triangles;
     }
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{shadow_timer(view.light)});

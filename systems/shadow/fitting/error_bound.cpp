@@ -75,28 +75,49 @@ bool within(const ShadowView& view, const glm::dvec3& p_ws) {
            glm::all(glm::lessThanEqual(at, (view.plane.tan_high + slack) * z_m));
 }
 
+/// Calls `visit` for each point that is in front of the camera and in the view. It gets a texel's diagonal
+/// there, metres, and the distance from which the view serves it. Then come the pixels of a metre on the steepest
+/// receiver, and the point's distance along the view.
+template <class Visit>
+void for_each_served(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
+                     const Visit& visit) {
+    for (const glm::dvec3& p_ws : points_ws) {
+        const double depth_m = depth_from(consumer, p_ws);
+        if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
+        const double served_m = std::max({depth_m, consumer.near_m, view.cascade.seen_from_m});
+        visit(texel_at(view, p_ws), served_m, kSteepestReceiver * pixels_per_metre(consumer, served_m), depth_m);
+    }
+}
+
 /// Computes the bound over all receivers of a view, as state_error(). All 0 if nothing is in front of the camera.
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                         double reach_texel) {
     ViewError error;
     // Texel over pixel is a ratio of two linear functions of the point: largest at a corner.
-    for (const glm::dvec3& p_ws : points_ws) {
-        const double depth_m = depth_from(consumer, p_ws);
-        if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
-        const double served_m = std::max({depth_m, consumer.near_m, view.cascade.seen_from_m});
-        const double texel_m = texel_at(view, p_ws);
-        const double metre_px = kSteepestReceiver * pixels_per_metre(consumer, served_m);
+    for_each_served(view, consumer, points_ws, [&](double texel_m, double served_m, double metre_px, double) {
         error.texel_m = std::max(error.texel_m, texel_m);
         error.extent_px = std::max(error.extent_px, texel_m * metre_px);
         error.metre_px = std::max(error.metre_px, metre_px);
         error.rounding_px = std::max(error.rounding_px, kPosition * served_m * metre_px);
-    }
+    });
     if (error.texel_m > 0.0) error.texel_edge_px = edge_error_px(error.extent_px, reach_texel);
     error.resolved_m = resolved_width_texel(reach_texel) * error.texel_m;
     return error;
 }
 
 }  // namespace
+
+void add_extents(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, const ShadowView& view,
+                 ExtentSum& sum) {
+    for_each_served(view, consumer, points_ws, [&](double texel_m, double, double metre_px, double depth_m) {
+        const double to_m = view.cascade.seen_to_m;
+        if (depth_m < view.cascade.seen_from_m || (to_m > 0.0 && depth_m > to_m)) return;
+        const double extent_px = texel_m * metre_px;
+        if (!(extent_px > 0.0) || !std::isfinite(extent_px)) return;
+        sum.log2_px += std::log2(extent_px);
+        ++sum.points;
+    });
+}
 
 TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
     const auto side = [&](const glm::dvec2& texel) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -54,6 +55,16 @@ double stated_error_px(const ShadowView& view, double cosine, double reach_texel
 /// convex parts of what is seen of them; points outside a perspective view do not count.
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view);
+
+/// Sum over points from which a mean follows.
+struct ExtentSum {
+    double log2_px = 0.0;
+    std::uint64_t points = 0;
+};
+/// Adds the extents of a texel on screen at the points that state_error() bounds. Their geometric mean is what is
+/// usual, where the bound is that of the worst place.
+void add_extents(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, const ShadowView& view,
+                 ExtentSum& sum);
 
 /// Returns what the view states of its maps.
 MapAccuracy accuracy_of(const ShadowView& view);

@@ -10,6 +10,7 @@
 #include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/view_casters.h"
+#include "systems/shadow/fitting/choose_proxies.h"
 #include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/frame/depth_format.h"
 #include "systems/shadow/request/accuracy_target.h"
@@ -301,6 +302,7 @@ Reason LightFit::select_casters() {
         select_view_casters(scene_, inputs, view, storage_.sets, out_.casters);
         view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;
         state_edges(filter_row(request.map.filter).storage.triangle_ids && !has_casters_by_depth(view), view);
+        choose_proxies(scene_, request.map, view, storage_.drawn, out_);
         any = any || view.casters.count > 0;
     }
     return any ? Reason::none : Reason::no_caster;  // no caster where its shadow would be seen

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
@@ -26,6 +28,7 @@ struct FitInputs {
 struct FitStorage {
     SetScratch sets;
     FitScratch fits;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> drawn;  // choose_proxies()
 };
 
 /// Most changes of a light's map size in one fit. The first follows the present maps' error. The second corrects for

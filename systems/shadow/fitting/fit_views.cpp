@@ -45,7 +45,8 @@ private:
     /// Fits without history, since that belongs to another filter's maps.
     Reason fit_anew(ShadowFilter filter, LightFitHistory& next) {
         const LightFitHistory fresh = without_fits(held_);
-        fit_.request_anew(request_with(scene_, choice_.request.limits.device_px, &fresh, index_, filter));
+        const DeviceMaps device{choice_.request.limits.device_px, choice_.request.map.references};
+        fit_.request_anew(request_with(scene_, device, &fresh, index_, filter));
         return fit(fresh, next);
     }
     /// Returns the accuracy over all views that are looked up. One view may have the worst edges, and another the
@@ -137,6 +138,7 @@ void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& 
     const LightFitHistory none;
     fitted.views.clear();
     fitted.casters.clear();
+    fitted.caster_meshes.clear();
     fitted.resized_sets.clear();
     fitted.resized_sets.camera_frusta = inputs.sets.camera_frusta;
     fitted.resized_sets.nearest_surface_m = inputs.sets.nearest_surface_m;

@@ -14,7 +14,8 @@ struct EngineDraw {
     std::uint32_t light = 0;     // index into SceneSnapshot::lights
     gl::TargetHandle target{};
     std::uint32_t size_px = 0;
-    bool clears = false;  // first draw into the target: it is cleared before
+    bool clears = false;              // first draw into the target: it is cleared before
+    std::uint32_t triangle_bits = 0;  // format of the map's triangles (TriangleReferences)
     glm::mat4 clip_from_anchor{1.0f};
     glm::dvec3 anchor_ws_m{0.0};
 };

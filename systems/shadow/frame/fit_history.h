@@ -13,6 +13,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/cascade_ends.h"
 #include "systems/shadow/frame/quality_limits.h"
+#include "systems/shadow/frame/triangle_references.h"
 #include "systems/shadow/frame/view_limits.h"
 
 /// History of the fits from frame to frame. Its hysteresis keeps a map in place while the map is still good enough.
@@ -166,6 +167,8 @@ struct History {
     std::vector<LightFitHistory> lights;    // in the order of the frame's lights
     std::uint64_t pictures = 0;             // hash of the poses of the last frame's cameras
     std::uint32_t frames_since_grants = 0;  // frames since grants changed (settle_limits); 0 without a budget
+    TriangleReferences references = {};     // format of all maps with triangles
+    bool short_of_bytes = false;            // the automatic limit on bytes binds (budget/automatic_limit.h)
     bool operator==(const History&) const = default;
 };
 

@@ -38,6 +38,7 @@ struct MapAssignment {
     /// Triangle that each texel shows (FilterStorage::triangle_ids). With conservative bounds: one layer into which all
     /// views are drawn in turn. Otherwise {0}.
     gl::TextureHandle triangles{};
+    std::uint32_t triangle_bits = 0;  // TriangleReferences::triangle_bits of that texture
     BoundsMaps sheets;
     PrefilteredMaps prefiltered;
     std::uint32_t size_px = 0;

@@ -8,6 +8,7 @@
 #include "engine/math/frustum.h"
 #include "systems/shadow/frame/index_range.h"
 #include "systems/shadow/frame/index_set.h"
+#include "systems/shadow/frame/instance_layers.h"
 #include "systems/shadow/frame/split_scratch.h"
 
 namespace gnomon::shadow {
@@ -89,8 +90,9 @@ inline void ReceiverCasterSets::clear() {
     outlines.clear();
 }
 
-/// Reused storage of the search for receivers and casters; its contents are meaningless between two searches.
+/// Reused storage of the search for receivers and casters; its other contents are meaningless between two searches.
 struct SetScratch {
+    InstanceLayers layers;      // instances of the last select_sets()
     IndexSet marks, receivers;  // sets of instances
     std::vector<std::uint32_t> candidates;      // receivers that a camera sees, camera by camera
     std::vector<IndexRange> camera_candidates;  // range of `candidates` for each camera

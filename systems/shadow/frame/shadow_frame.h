@@ -19,8 +19,8 @@ namespace gnomon::shadow {
 
 /// Data of one frame between snapshot and commands, in the order of the stages. One stage writes each member, and no
 /// member changes after that stage. All stages add to `statuses` and `cpu_us`. The fits write `next_history`; the
-/// budget writes its BudgetHistory and frames_since_grants. Storage is reused from frame to frame. Only ShadowSystem
-/// sees the whole.
+/// budget writes its BudgetHistory, frames_since_grants and short_of_bytes. Storage is reused from frame to frame. Only
+/// ShadowSystem sees the whole.
 struct ShadowFrame {
     std::vector<std::uint64_t> moving;    // bits of dynamic instances, as DynamicCasters::moving(); empty: none
     std::vector<LightStatus> statuses;    // one per light

@@ -6,6 +6,7 @@
 #include "gnomon/frame.h"
 #include "gnomon/light.h"
 #include "systems/shadow/frame/fit_history.h"
+#include "systems/shadow/frame/triangle_references.h"
 
 namespace gnomon::shadow {
 
@@ -57,6 +58,7 @@ struct MapSettings {
     std::uint32_t reduced_px = 0;     // edge of the map where a budget reduces it; 0: resolution_px
     std::uint32_t view_count = 0;     // layers of the map
     float cascade_blend = 0.0f;       // share of a cascade that fades into the next
+    TriangleReferences references{};  // filters with FilterStorage::triangle_ids only
 };
 
 /// Returns the edge of the light's maps in this frame, texels.

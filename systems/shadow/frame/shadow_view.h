@@ -58,6 +58,9 @@ struct ViewError {
     double grid_px = 0.0;      // part of edge_px that the picture's pixel grid causes by itself
     double resolved_m = 0.0;   // width of a caster, at its receiver across the light, that the map resolves
     double metre_px = 0.0;     // longest extent on screen of a metre across the light, on a receiver
+    /// Largest distance of a caster's surface from that of the mesh that it is drawn as, metres. 0: all are drawn as
+    /// they are (fitting/choose_proxies.h).
+    double proxy_m = 0.0;
 };
 
 /// Struct 4. Shadow view: one depth map of a cascade, a spot or a cube face. All double-precision geometry ends here.
@@ -77,8 +80,8 @@ struct ShadowView {
     /// Stays in place while cameras move: its casters are all casters in its map. false: only casters that can darken
     /// receivers visible now.
     bool held = false;
-    /// Into FittedViews::casters: static casters, then dynamic ones, each by mesh, then by index. The drawing order
-    /// matters, because at equal depths the first one drawn stays.
+    /// Into FittedViews::casters: static casters, then dynamic ones, each by the mesh that is drawn, then by index. The
+    /// drawing order matters, because at equal depths the first one drawn stays.
     IndexRange casters;
     std::uint32_t static_casters = 0;  // number of static casters
     bool lit = false;                  // no caster can darken its receivers: published, but neither drawn nor looked up
@@ -109,6 +112,8 @@ struct FittedViews {
     std::vector<FitChoice> lights;  // one per light
     std::vector<ShadowView> views;  // by light; the views of a light are consecutive
     std::vector<std::uint32_t> casters;
+    /// Mesh that each caster is drawn as, of views with a ViewError::proxy_m; of others meaningless, or missing.
+    std::vector<std::uint32_t> caster_meshes;
     /// Sets of cube lights that the fits gave maps of another size. They change because a face's border is a share of
     /// its map.
     ReceiverCasterSets resized_sets;
@@ -120,6 +125,10 @@ struct FittedViews {
     }
     std::span<const std::uint32_t> moving_casters_of(const ShadowView& view) const {
         return casters_of(view).subspan(view.static_casters);
+    }
+    /// Returns the mesh that each caster of the view is drawn as; empty: all are drawn as they are.
+    std::span<const std::uint32_t> meshes_of(const ShadowView& view) const {
+        return view.error.proxy_m > 0.0 ? slice(caster_meshes, view.casters) : std::span<const std::uint32_t>();
     }
     /// Returns the light's sets, from the culling stage's `sets` or from resized_sets.
     LightSetsView sets_of(const ReceiverCasterSets& sets, std::uint32_t light) const {

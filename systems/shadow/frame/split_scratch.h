@@ -12,6 +12,7 @@ namespace gnomon::shadow {
 struct SplitScratch {
     IndexSet wanted, marks;
     std::vector<std::uint32_t> inner, others;
+    std::vector<std::uint8_t> known;  // by BoundsTree::numbers(): what is known of a box
     std::vector<glm::dvec3> corners_ws_m;
     math::InnerHull hull;
 };

@@ -24,7 +24,8 @@ std::uint64_t with_source(std::uint64_t content, const FilterSettings& filter) {
 }  // namespace
 
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                   std::span<const std::uint32_t> casters, CasterFaces faces) {
+                                   std::span<const std::uint32_t> casters, std::span<const std::uint32_t> meshes,
+                                   CasterFaces faces) {
     Signature s;
     s.add(std::uint64_t{size_px});
     s.add(static_cast<std::uint64_t>(faces));
@@ -32,17 +33,19 @@ ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) s.add(view.clip_from_anchor[column][row]);
     const std::uint64_t placement = s.value();
-    const auto add = [&](std::span<const std::uint32_t> group) {
-        for (const std::uint32_t i : group) {
-            s.add(scene.instances[i].gpu_slot | scene.instances[i].mesh_version << 32);
-            s.add(scene.instances[i].version);
+    const auto add = [&](std::size_t from, std::size_t end) {
+        for (std::size_t c = from; c < end; ++c) {
+            const InstanceItem& item = scene.instances[casters[c]];
+            s.add(item.gpu_slot | item.mesh_version << 32);
+            s.add(item.version);
+            if (!meshes.empty()) s.add(std::uint64_t{meshes[c]});
         }
     };
     const std::size_t still = std::min<std::size_t>(view.static_casters, casters.size());
-    add(casters.first(still));
+    add(0, still);
     const std::uint64_t of_still = s.value();
     if (still > 0 && still < casters.size()) s.add(kBoundary);
-    add(casters.subspan(still));
+    add(still, casters.size());
     return {of_still, s.value(), placement};
 }
 
@@ -61,6 +64,7 @@ void MapCache::assign(const SceneSnapshot& scene, const FittedViews& fitted, std
         map.texture = cached.texture;
         map.target = cached.layers.targets[view.layer];
         map.triangles = cached.triangles;
+        map.triangle_bits = cached.references.triangle_bits;
         if (cached.storage.conservative_bounds)
             map.sheets = {cached.sheets.second, cached.sheets.second_targets[view.layer], cached.sheets.bounds,
                           cached.sheets.bounds_targets[view.layer], cached.sheets.ends};
@@ -68,7 +72,8 @@ void MapCache::assign(const SceneSnapshot& scene, const FittedViews& fitted, std
             map.prefiltered = {cached.moments.texture, cached.moments.targets[view.layer], cached.moments.scratch,
                                cached.moments.scratch_target};
         map.size_px = cached.desc.width;
-        map.content = content_signature(view, map.size_px, scene, fitted.casters_of(view), light.shadow.caster_faces);
+        map.content = content_signature(view, map.size_px, scene, fitted.casters_of(view), fitted.meshes_of(view),
+                                        light.shadow.caster_faces);
         if (map.sheets.ends)
             map.content.all = with_source(map.content.all, decisions[view.light].request.map.filtering);
     }

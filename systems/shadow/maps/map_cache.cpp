@@ -21,13 +21,18 @@ bool snaps_to_texels(const LightItem& light) {
     return light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
 }
 
+/// Returns the references of the request's map. A conservative map has two numbers, which its second layer is drawn by.
+TriangleReferences references_of(const ShadowRequest& request) {
+    return filter_row(request.map.filter).storage.triangle_ids ? request.map.references : TriangleReferences{};
+}
+
 bool has_triangles(const FilterStorage& storage) { return storage.triangle_ids || storage.conservative_bounds; }
 
 }  // namespace
 
 std::uint64_t layer_bytes(const CachedMap& map) {
     std::uint64_t texel = gl::texel_bytes(map.desc.format);
-    if (map.triangles) texel += gl::texel_bytes(kTriangleFormat);
+    if (map.triangles) texel += gl::texel_bytes(map.references.format());
     return texel * map.desc.width * map.desc.height;
 }
 
@@ -54,7 +59,21 @@ const CachedMap* MapCache::find(ecs::Entity light) const {
 std::uint64_t MapCache::bytes(const CachedMap& cached) {
     if (!cached.texture) return 0;
     const std::uint64_t still = cached.still.texture ? static_copy_bytes(cached) : 0;
-    return map_bytes(cached.desc, cached.storage, cached.moments.desc, cached.moments.scratch_desc) + still;
+    return map_bytes(cached.desc, cached.storage, cached.references.format(), cached.moments.desc,
+                     cached.moments.scratch_desc) +
+           still;
+}
+
+BytesByPart MapCache::parts(const CachedMap& cached) {
+    BytesByPart parts;
+    if (!cached.texture) return parts;
+    const auto size = [](const gl::TextureDesc& desc) { return desc.width > 0 ? gl::byte_size(desc) : 0; };
+    parts.depths = size(cached.desc);
+    if (cached.storage.triangle_ids) parts.triangles = size(triangles_of(cached.desc, cached.references.format()));
+    parts.prefiltered = size(cached.moments.desc) + size(cached.moments.scratch_desc);
+    if (cached.still.texture) parts.static_copies = static_copy_bytes(cached);
+    parts.bounds = bytes(cached) - parts.depths - parts.triangles - parts.prefiltered - parts.static_copies;
+    return parts;
 }
 
 std::uint64_t MapCache::bytes() const {
@@ -178,9 +197,10 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     CachedMap made;
     made.desc = desc;
     made.storage = filter_row(request.map.filter).storage;
+    made.references = references_of(request);
     made.texture = device_.create_texture(desc, {}).handle;
     const bool triangles = has_triangles(made.storage), sheets = made.storage.conservative_bounds;
-    gl::TextureDesc shown = sheets ? bounds_descs_of(desc).triangles : triangles_of(desc);
+    gl::TextureDesc shown = sheets ? bounds_descs_of(desc).triangles : triangles_of(desc, made.references.format());
     shown.label = desc.label + ", triangles";
     shown.shared = desc.shared && !sheets;  // the map that is peeled has one of its own
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
@@ -199,6 +219,7 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     cached.texture = made.texture;
     cached.storage = made.storage;
     cached.triangles = made.triangles;
+    cached.references = made.references;
     cached.sheets = std::move(made.sheets);
     cached.moments = std::move(made.moments);
     cached.layers.targets = std::move(made.layers.targets);
@@ -216,9 +237,9 @@ bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, 
     }
     const FilterStorage& storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = cached.desc;
-    if (cached.texture &&
-        !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
-          cached.storage == storage && is_same_store(cached.moments, moments_of(held, request.map)))) {
+    if (cached.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
+                            cached.storage == storage && cached.references == references_of(request) &&
+                            is_same_store(cached.moments, moments_of(held, request.map)))) {
         // The light needs a map of another kind. The old map has no use, nor has the record of a failure.
         release(cached);
         cached.allocation.wanted_px = 0;
@@ -237,7 +258,8 @@ bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, 
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
         if (halving > 0 && fits && cached.texture && desc.width <= cached.desc.width) break;  // no larger
         const PrefilterDescs moments = moments_of(desc, request.map);
-        const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &cached);
+        const bool has_room = make_room(
+            map_bytes(desc, storage, references_of(request).format(), moments.texture, moments.scratch), &cached);
         Reason reason = has_room ? try_create(desc, request, cached) : Reason::map_allocation_failed;
         if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
             spare_->release();
@@ -270,39 +292,6 @@ bool MapCache::stay() {
     return true;
 }
 
-/// Evicts the spare cache if that makes room for `bytes_more`. Returns whether anything was evicted.
-bool MapCache::yield_spare(std::uint64_t bytes_more) const {
-    if (!spare_ || spare_->bytes() == 0 || spare_->bytes() <= room() - std::min(room(), bytes_more)) return false;
-    spare_->release();
-    return true;
-}
-
-/// Evicts until `bytes_more` fit, in this order: the spare cache, unused maps (least recently used first), static
-/// copies, the map to be replaced. Returns false if they still do not fit.
-bool MapCache::make_room(std::uint64_t bytes_more, CachedMap* replaced) {
-    if (limit_ == kNoLimit) return true;
-    yield_spare(bytes_more);
-    for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
-        CachedMap* unseen = nullptr;
-        CachedMap* apart = nullptr;
-        for (CachedMap& cached : lights_) {
-            const bool is_seen = cached.last_wanted_frame == frame_;
-            if (cached.texture && !is_seen && (!unseen || cached.last_wanted_frame < unseen->last_wanted_frame))
-                unseen = &cached;
-            if (cached.still.texture) apart = &cached;
-        }
-        if (unseen)
-            release(*unseen);
-        else if (apart)
-            release_static_copy(apart->still);
-        else if (replaced && replaced->texture)
-            release(*replaced);
-        else
-            return false;
-    }
-    return true;
-}
-
 /// Frees the map of a light without views in this frame after kHoldFrames, or at once if the budget leaves it none.
 /// Until then the camera may turn back.
 void MapCache::keep_or_release(ecs::Entity light, Reason skip) {
@@ -332,6 +321,12 @@ void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
         return true;
     };
     if (std::erase_if(lights_, is_gone) > 0) note_places(0);
+    if (keep_limit_ != kNoLimit) {
+        std::uint64_t wanted_bytes = 0;
+        for (std::size_t i = 0; i < decisions.size(); ++i)
+            if (wants_map(i)) wanted_bytes += map_bytes(scene.lights[i], decisions[i].request);
+        evict_unseen(wanted_bytes);
+    }
     // Within a limit, maps that become smaller are replaced first, so that the others find room.
     const bool limited = limit_ != kNoLimit;
     if (limited) make_room(0, nullptr);
@@ -369,7 +364,7 @@ bool MapCache::provide_static_copy(CachedMap& map) const {
     if (fits) yield_spare(static_copy_bytes(map));
     if (fits) still.texture = device_.create_texture(desc, {}).handle;
     desc.label += " triangles";
-    desc.format = kTriangleFormat;
+    desc.format = map.references.format();
     if (still.texture && map.triangles) still.triangles = device_.create_texture(desc, {}).handle;
     if (still.texture && static_cast<bool>(still.triangles) == static_cast<bool>(map.triangles)) return true;
     release_static_copy(still);

@@ -8,6 +8,7 @@
 
 #include "engine/gl/device.h"
 #include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/retry.h"
@@ -62,6 +63,7 @@ struct CachedMap {
     gl::TextureHandle texture{};
     FilterStorage storage{};        // what the map was made for
     gl::TextureHandle triangles{};  // triangle per texel, for a filter that reads or peels them; else {0}
+    TriangleReferences references;  // its format, for a filter that reads them
     BoundsTextures sheets;          // conservative map, for a filter of FilterStorage::conservative_bounds
     PrefilterTextures moments;      // prefiltered map, for a filter with FilterRow::moments
     StaticCopy still;               // copy of its static casters, while only some casters move
@@ -98,6 +100,9 @@ public:
     /// be freed before the new one exists, and caches are evicted first.
     void set_limit(std::uint64_t bytes) { limit_ = bytes; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
+    /// Sets the bytes of all maps up to which those of unseen lights are kept; kNoLimit: any. Beyond it the least
+    /// recently seen are freed before new maps are made.
+    void set_keep_limit(std::uint64_t bytes) { keep_limit_ = bytes; }
     /// Lets maps be layers of shared arrays (gl::SharedLayers), one per size and format, so that a few units serve all.
     /// Their edges are then powers of two of at least kLeastSharedEdge_px, but those of ShadowFit::stable, which keep
     /// their size. The bytes of layers that no map uses are not counted. Call it before the first assign().
@@ -142,6 +147,8 @@ public:
     void waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const;
     std::uint64_t bytes() const;
     static std::uint64_t bytes(const CachedMap& cached);
+    /// Returns the same by what it holds.
+    static BytesByPart parts(const CachedMap& cached);
 
     static constexpr std::uint64_t kHoldFrames = 60;  // one second at 60 Hz: looking away and back costs nothing
     static constexpr std::uint64_t kRetryFrames = Retry::kFrames;
@@ -152,6 +159,8 @@ private:
     void release(CachedMap& cached);
     bool yield_spare(std::uint64_t bytes_more) const;
     bool make_room(std::uint64_t bytes_more, CachedMap* replaced);
+    CachedMap* least_recently_seen();
+    void evict_unseen(std::uint64_t wanted_bytes);
     void keep_or_release(ecs::Entity light, Reason skip);
     void provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
                       const LightAccounts& accounts);
@@ -167,7 +176,7 @@ private:
     gl::Device& device_;
     std::vector<CachedMap> lights_;
     std::unordered_map<std::uint32_t, std::uint32_t> places_;  // into lights_, by the entity's index (any number)
-    std::uint64_t frame_ = 0, limit_ = kNoLimit;
+    std::uint64_t frame_ = 0, limit_ = kNoLimit, keep_limit_ = kNoLimit;
     SpareMemory* spare_ = nullptr;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
     bool shares_layers_ = false;
@@ -175,8 +184,10 @@ private:
 };
 
 /// Computes the hash of what a view's layer is to show.
-/// `casters`: the view's static casters, view.static_casters in number, then its moving ones.
+/// `casters`: the view's static casters, view.static_casters in number, then its moving ones. `meshes`: mesh that each
+/// is drawn as; empty: its own.
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                   std::span<const std::uint32_t> casters, CasterFaces faces);
+                                   std::span<const std::uint32_t> casters, std::span<const std::uint32_t> meshes,
+                                   CasterFaces faces);
 
 }  // namespace gnomon::shadow

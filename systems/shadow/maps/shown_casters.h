@@ -24,6 +24,7 @@ struct ShownCaster {
 struct ShownCasters {
     std::uint64_t still = 0;  // ContentSignature::still; 0: unknown
     std::vector<ShownCaster> moving;
+    double proxy_m = 0.0;             // ViewError::proxy_m
     std::uint32_t waited_frames = 0;  // UpdatePlan::waited_frames for the next frame
 };
 

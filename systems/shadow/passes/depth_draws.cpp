@@ -1,6 +1,7 @@
 #include "systems/shadow/passes/depth_draws.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "systems/extract/depth_runs.h"
 
@@ -26,6 +27,14 @@ bool same_buffers(const EngineMesh& a, const EngineMesh& b) {
     return a.vertices == b.vertices && a.indices == b.indices && a.layout == b.layout;
 }
 
+/// Returns the mesh that a caster is drawn as: its own where the device has no room for the proxy.
+std::uint32_t drawn_mesh(const SceneSnapshot& scene, const GpuScene& gpu, const DepthDraws::Casters& casters,
+                         std::size_t i) {
+    const std::uint32_t own = scene.instances[casters.instances[i]].mesh;
+    if (casters.meshes.empty() || gpu.depth_facts(casters.meshes[i]).draws == 0) return own;
+    return casters.meshes[i];
+}
+
 }  // namespace
 
 void DepthDraws::clear() {
@@ -33,6 +42,7 @@ void DepthDraws::clear() {
     records_.clear();
     batches_.clear();
     first_batch_ = 0;
+    saved_ = open_saved_ = 0;
 }
 
 void DepthDraws::add(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way, const Casters& casters) {
@@ -40,9 +50,13 @@ void DepthDraws::add(const SceneSnapshot& scene, const GpuScene& gpu, const Way&
     const auto place_of = [&](std::size_t i) { return casters.layers.empty() ? 0u : casters.layers[i]; };
     for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
         const InstanceItem& item = scene.instances[all[first]];
-        for (end = first + 1; end < all.size() && scene.instances[all[end]].mesh == item.mesh;) ++end;
-        const MeshDepthFacts& facts = gpu.depth_facts(item.mesh);
+        const std::uint32_t mesh = drawn_mesh(scene, gpu, casters, first);
+        for (end = first + 1; end < all.size() && drawn_mesh(scene, gpu, casters, end) == mesh;) ++end;
+        const MeshDepthFacts& facts = gpu.depth_facts(mesh);
         if (facts.draws == 0) continue;
+        if (mesh != item.mesh)
+            for (std::size_t i = first; i < end; ++i)
+                open_saved_ += gpu.mesh(scene.instances[all[i]].mesh).triangles - gpu.mesh(mesh).triangles;
         if (end - first == 1 && facts.index_count > 0) {  // the usual case by far where there are many draws
             const std::uint32_t triangle = way.triangles ? facts.first_index / 3 : 0;
             opaque_[static_cast<std::size_t>(faces_of(item, way, facts.solid))].push_back(
@@ -51,8 +65,7 @@ void DepthDraws::add(const SceneSnapshot& scene, const GpuScene& gpu, const Way&
             items_.push_back({item.gpu_slot, place_of(first) | triangle << kLayerBits});
             continue;
         }
-        const auto layers = casters.layers.empty() ? casters.layers : casters.layers.subspan(first, end - first);
-        add_several(scene, gpu, way, {all.subspan(first, end - first), layers}, item.mesh);
+        add_several(scene, gpu, way, casters.part(first, end), mesh);
     }
 }
 
@@ -145,6 +158,7 @@ IndexRange DepthDraws::end_group() {
     const auto end = static_cast<std::uint32_t>(batches_.size());
     const IndexRange range{first_batch_, end - first_batch_};
     first_batch_ = end;
+    saved_ = std::exchange(open_saved_, 0);
     return range;
 }
 

@@ -46,10 +46,19 @@ public:
         bool parallel = false;   // rays of light; false: they start at apex_ws_m
         glm::dvec3 apex_ws_m{0.0};
     };
-    /// Casters to be drawn, as indices into the scene's instances; instances of a mesh are neighbours.
+    /// Casters to be drawn, as indices into the scene's instances. Casters that are drawn as one mesh are neighbours.
     struct Casters {
         std::span<const std::uint32_t> instances;
         std::span<const std::uint32_t> layers;  // one per caster; empty: 0
+        std::span<const std::uint32_t> meshes;  // that each caster is drawn as; empty: its own
+
+        /// Returns the casters [first, end).
+        Casters part(std::size_t first, std::size_t end) const {
+            const auto of = [&](std::span<const std::uint32_t> all) {
+                return all.empty() ? all : all.subspan(first, end - first);
+            };
+            return {of(instances), of(layers), of(meshes)};
+        }
     };
     /// Draws with the same state.
     struct Batch {
@@ -70,6 +79,8 @@ public:
     std::span<const Batch> batches(IndexRange range) const { return slice(batches_, range); }
     std::span<const DepthItem> items() const { return items_; }
     std::span<const gl::MeshDrawRecord> records() const { return records_; }
+    /// Returns the number of triangles that proxies saved in the group that ended last.
+    std::uint64_t saved_triangles() const { return saved_; }
 
 private:
     struct Masked {
@@ -91,6 +102,7 @@ private:
     std::vector<gl::MeshDrawRecord> records_;
     std::vector<Batch> batches_;
     std::uint32_t first_batch_ = 0;  // start of the open group
+    std::uint64_t saved_ = 0, open_saved_ = 0;
     std::array<std::vector<gl::MeshDrawRecord>, kDrawnFaces> opaque_;
     std::vector<Masked> masked_;
     std::vector<FromEngine> engines_;

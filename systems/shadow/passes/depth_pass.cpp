@@ -177,8 +177,8 @@ void DepthPass::list_engine_draws(const PassInputs& in, const Pass& pass, LightR
     bool first = true;
     for (const std::uint32_t i : in.drawn.fitted.casters_of(view)) {
         if (!in.scene.instances[i].drawable.drawn) continue;
-        engine_draws_.push_back(
-            {i, view.light, map.target, map.size_px, first, view.clip_from_anchor, view.pose.anchor_ws_m});
+        engine_draws_.push_back({i, view.light, map.target, map.size_px, first, map.triangle_bits,
+                                 view.clip_from_anchor, view.pose.anchor_ws_m});
         first = false;
         ++report.counts.draws;
         ++report.counts.draw_commands;
@@ -227,6 +227,7 @@ void DepthPass::draw(const PassInputs& in, const Pass& pass, const DepthVariant&
         }
         report.counts.draws += batch.draws.count;
         report.counts.triangles += batch.triangles;
+        report.counts.full_triangles += batch.triangles;
     }
 }
 
@@ -290,6 +291,7 @@ void DepthPass::record(const PassInputs& in, const PassOutputs& out) {
         }
         draw(in, pass, way, pass.moving, list, report);
         list.add(gl::EndPass{});
+        report.counts.full_triangles += pass.saved_triangles;
         if (way.sheets) peel(in, pass, list, report);
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});

@@ -47,6 +47,7 @@ private:
         bool layered = false;
         std::uint32_t views = 0, uniform_offset = 0;
         IndexRange still, moving;  // batches of draws_; without triangles in the map and a copy, still has all
+        std::uint64_t saved_triangles = 0;  // by proxies
     };
     static std::size_t which(const DepthVariant& way, bool masked);
     DepthVariant variant_of(const PassInputs& in, std::size_t v) const;
@@ -55,10 +56,11 @@ private:
     Reason ready(const PassInputs& in, const DepthVariant& way, std::span<const std::uint32_t> casters);
     void gather(const PassInputs& in, const LightAccounts& accounts);
     void gather_casters(const PassInputs& in, Pass& pass);
+    void end_group(Pass& pass, IndexRange& group);
     void gather_uniforms(const DrawnViews& drawn, Pass& pass);
     DepthDraws::Casters merge_layers(const PassInputs& in, const Pass& pass, bool moving);
     bool reserve_buffers();
-    void append_uniforms(const ShadowView& view, std::size_t at);
+    void append_uniforms(const ShadowView& view, std::uint32_t triangle_bits, std::size_t at);
     void begin(const PassInputs& in, const Pass& pass, gl::CommandList& list);
     void list_engine_draws(const PassInputs& in, const Pass& pass, LightReport& report);
     void begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list);
@@ -88,7 +90,8 @@ private:
     std::vector<std::uint32_t> separate_;  // lights without a layered program, by rising index
     std::vector<Pass> passes_;
     DepthDraws draws_;
-    std::vector<std::uint32_t> caster_scratch_, layer_scratch_;  // one each per caster of a layered pass
+    std::vector<std::uint32_t> caster_scratch_, layer_scratch_, mesh_scratch_;  // one each per caster of a
+                                                                                // layered pass
     std::vector<std::byte> view_scratch_;
     std::vector<EngineDraw> engine_draws_;
     gl::PipelineState pipeline_;  // state of the pass being recorded

@@ -159,7 +159,9 @@ void TintPass::draw(const PassInputs& in, const View& view, const gl::PipelineSt
             gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
         ++report.counts.draws;
         ++report.counts.draw_commands;
-        report.counts.triangles += std::uint64_t{draw.index_count} / 3 * draw.item_count;
+        const std::uint64_t triangles = std::uint64_t{draw.index_count} / 3 * draw.item_count;
+        report.counts.triangles += triangles;
+        report.counts.full_triangles += triangles;
     }
 }
 

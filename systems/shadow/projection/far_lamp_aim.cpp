@@ -53,14 +53,11 @@ math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
     for (const ConsumerItem& consumer : scene.consumers) {
         const math::Frustum frustum = consumer_frustum(consumer);
         const auto planes = math::planes_of(frustum);
-        const auto classify = [&](const math::Aabb& box) {
-            if (wide) return math::Overlap::outside;
-            const math::Overlap seen = math::overlap(planes, box);
-            if (seen == math::Overlap::outside) return seen;
-            const math::Overlap reached = reach.overlap(box);
-            return reached == math::Overlap::inside ? seen : reached;
+        const SeenReach seen(planes, reach);
+        const auto classify = [&](const math::Aabb& box, math::OpenTests& open) {
+            return wide ? math::Overlap::outside : seen.overlap(box, open);
         };
-        visit_instances(scene, classify, [&](std::uint32_t i) {
+        visit_instances(scene, seen.tests(), classify, [&](std::uint32_t i) {
             const InstanceItem& item = scene.instances[i];
             if (wide || !item.visible || !receives_under(light, item)) return;
             const math::Aabb reached = math::clipped_bounds(reach.cone(), reach.clipped(item.bounds_ws));

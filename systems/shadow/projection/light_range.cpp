@@ -8,6 +8,14 @@ namespace gnomon::shadow {
 
 using math::Overlap;
 
+namespace {
+
+/// Bit of the range's test, beside those of the cone's planes.
+constexpr math::OpenTests kRangeTest = math::OpenTests{1} << 32;
+static_assert(math::kConeSides + 1 <= 32);
+
+}  // namespace
+
 math::Plane shone_side(const LightItem& light) {
     const glm::dvec3& back = light.rotation_ws[2];
     return {-back, glm::dot(back, light.position_ws_m)};
@@ -30,6 +38,20 @@ Overlap LightReach::overlap(const math::Aabb& box) const {
     if (cone_ && math::overlap(*cone_, box) == Overlap::outside) return Overlap::outside;
     if (side_ && math::overlap(std::span(&*side_, 1), box) == Overlap::outside) return Overlap::outside;
     return range_m_ || cone_ || side_ ? Overlap::partial : Overlap::inside;
+}
+
+math::OpenTests LightReach::tests() const { return math::open_tests(cone().size()) | (range_m_ ? kRangeTest : 0); }
+
+Overlap LightReach::overlap(const math::Aabb& box, math::OpenTests& open) const {
+    Overlap result = Overlap::inside;
+    if ((open & kRangeTest) != 0) {
+        result = math::overlap_ball(position_ws_m_, *range_m_, box);
+        if (result == Overlap::outside) return result;
+        if (result == Overlap::inside) open &= ~kRangeTest;
+    }
+    if (open == 0) return result;
+    const Overlap of_cone = math::overlap(cone(), box, open);
+    return of_cone == Overlap::inside ? result : of_cone;
 }
 
 std::span<const math::Plane> LightReach::cone() const {

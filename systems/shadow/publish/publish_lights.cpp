@@ -4,12 +4,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 
 #include "engine/math/projection.h"
+#include "engine/math/rounding.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/fitting/choose_proxies.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/frame/depth_format.h"
 #include "systems/shadow/projection/cube_faces.h"
@@ -27,13 +30,19 @@ namespace {
 /// Layer of a view without shadows (light_block.glsl).
 constexpr float kNoLayer = -1.0f;
 
-/// Returns the smallest float of at least `number`, for positive numbers.
-float at_least(double number) {
-    const auto rounded = static_cast<float>(number);
-    return static_cast<double>(rounded) < number ? std::nextafter(rounded, INFINITY) : rounded;
-}
-
 glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+/// Returns the distance by which receivers keep off what the view shows. Above 0: how far casters may have moved.
+/// Below: the view's proxy bound, which the shader cuts to what a receiver sees (light_block.glsl). A cube has one for
+/// all faces. No stale map shows proxies (stale_error.cpp).
+float kept_off_m(const DrawnViews& drawn, std::size_t v) {
+    const ShadowView& view = drawn.view(v);
+    double bound_m = view.error.proxy_m;
+    if (view.projection == ViewProjection::cube_face)
+        for (const ShadowView& face : drawn.fitted.views_of(view.light))
+            bound_m = std::max(bound_m, face.error.proxy_m);
+    return bound_m > 0.0 ? -math::at_least(bound_m) : math::at_least(drawn.updates[v].stale.moved_m);
+}
 
 ViewRecord view_record(const DrawnViews& drawn, std::size_t v, const ConsumerItem& consumer) {
     const ShadowView& view = drawn.view(v);
@@ -50,7 +59,7 @@ ViewRecord view_record(const DrawnViews& drawn, std::size_t v, const ConsumerIte
     // OpenGL 4.5, 2.3.5: a fixed-point value is one of the two nearest, so that it may be off by a whole step.
     const double depth_rounding =
         depth_format_row(request.map.depth_format).step + projection_rounding(view, request.projection.aim.radius_m);
-    record.numeric = {static_cast<float>(depth_rounding), at_least(drawn.updates[v].stale.moved_m),
+    record.numeric = {static_cast<float>(depth_rounding), kept_off_m(drawn, v),
                       static_cast<float>(orthographic ? view.cascade.fades_from_m : view.depth.alpha),
                       view.lit ? kNoLayer : static_cast<float>(view.layer)};
     record.anchor_from_camera = with_w(consumer.position_ws_m - view.pose.anchor_ws_m, view.cascade.fades_to_m);
@@ -297,11 +306,17 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     if (map_texture(light, request) != gl::TextureKind::cube)
         out.record.cone.z = static_cast<float>(request.projection.cube_blend_eighths) / 8.0f;
     bias_record(light.tuning.bias, out);
+    // A lamp's bounds follow from its receivers alone.
+    const bool by_distance = is_parallel(view) && consumer.projection == CameraProjection::perspective;
+    if (light.tuning.maps.proxies)
+        out.record.bias.w = by_distance ? math::at_least(proxy_bound_of(consumer, allowed_proxy_px(light.shadow)))
+                                        : std::numeric_limits<float>::max();
     const MapSettings& map = request.map;
     filter_record(light.tuning.kernel, map, consumer, out.record);
     out.record.moments = map.moments.settings;
     out.record.moment_sampling = {map.moments.bleeding, map.moments.footprint_texel,
-                                  static_cast<float>(map.moments.anisotropy), 0.0f};
+                                  static_cast<float>(map.moments.anisotropy),
+                                  static_cast<float>(in.drawn.maps[v].triangle_bits)};
     out.record.radiance.w = source_size(light.kind, map.filtering, view);
     if (in.drawn.maps[v].sheets.ends)
         out.record.moments = source_record(request.projection, in.clearances_m[view.light]);

@@ -153,8 +153,10 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     if (cached && cached->texture) {
         out.counts.texels = std::uint64_t{cached->desc.width} * cached->desc.height * gl::layer_count(cached->desc);
         out.counts.bytes = MapCache::bytes(*cached);
+        out.counts.parts = MapCache::parts(*cached);
     }
-    out.counts.bytes += in.tints.bytes(light.entity);
+    out.counts.parts.tints = in.tints.bytes(light.entity);
+    out.counts.bytes += out.counts.parts.tints;
     const ShadowFilter filter = published_filter(in.drawn, i, in.has_rays);
     LookupAccuracy shown{filter, 0.0, false};
     LookupState lookup;

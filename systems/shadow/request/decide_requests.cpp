@@ -198,7 +198,7 @@ void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_
     set_resolution(light, held_px > 0 ? std::min(held_px, most_px) : most_px, request);
 }
 
-ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const LightFitHistory* held_light,
+ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device, const LightFitHistory* held_light,
                            std::uint32_t i, ShadowFilter filter) {
     filter = without_size(scene.lights[i], filter);
     glm::uvec2 viewport_px{1, 1};
@@ -208,9 +208,10 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     request.map.filter = filter;
     request.map.depth_format = light.tuning.maps.depth_format;
     request.map.view_count = light_kind_row(light.kind).layers;
-    request.limits.device_px = limit_px;
+    if (light.tuning.maps.short_references) request.map.references = device.references;
+    request.limits.device_px = device.edge_px;
     request.projection.aim = next_far_lamp_aim(scene, light, held_light ? held_light->aim : FarLampAim{});
-    decide_resolution(light, viewport_px, limit_px, held_light, request);
+    decide_resolution(light, viewport_px, device.edge_px, held_light, request);
     decide_projection(light, request);
     if (light_facts(light.kind).parallel) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
     if (light_facts(light.kind).cone) decide_cone(light, held_light, request);
@@ -224,8 +225,8 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
             set_cascades(light.tuning.cascades, held_light->count.cascades, request);
     }
     if (light_facts(light.kind).parallel && adapts_to_target(light, request))
-        set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->size.map_px : 0,
-                 request);
+        set_most(light, sun_edge_px(light, viewport_px, device.edge_px, request),
+                 held_light ? held_light->size.map_px : 0, request);
     if (filter_row(request.map.filter).rays) decide_sheets(request);
     return request;
 }
@@ -248,7 +249,7 @@ void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, Ra
     const auto request = [&](std::uint32_t i, ShadowFilter filter) {
         const bool cube = light_kind_row(scene.lights[i].kind).texture == gl::TextureKind::cube;
         const std::uint32_t limit_px = cube ? inputs.device.max_cube_px : inputs.device.max_texture_px;
-        return request_with(scene, limit_px, fallbacks.held[i], i, filter);
+        return request_with(scene, {limit_px, inputs.references}, fallbacks.held[i], i, filter);
     };
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];

@@ -20,9 +20,15 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest
 /// Sets a sun's number of cascades, and the fade between them; one cascade has none.
 void set_cascades(const ShadowTuning::Cascades& tuning, std::uint32_t count, ShadowRequest& request);
 
-/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `limit_px`: the
-/// device's limit on a map's edge. `held`: the light's history, null if it has none.
-ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const LightFitHistory* held,
+/// What the device sets for all maps of a light, whatever the light requests.
+struct DeviceMaps {
+    std::uint32_t edge_px = 0;  // limit on a map's edge
+    TriangleReferences references{};
+};
+
+/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `held`: the light's
+/// history, null if it has none.
+ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device, const LightFitHistory* held,
                            std::uint32_t light, ShadowFilter filter);
 
 /// Limits the light's maps to most_px. Sets their size to that limit, or to their last size `held_px` if that is less
@@ -38,6 +44,7 @@ struct RequestInputs {
     const History& held;  // history after the last frame
     bool shadows = true;  // false: every light counts as disabled
     RayLimit rays = {};
+    TriangleReferences references = {};  // format of all maps with triangles
 };
 
 /// Decides the request of each light (stage 2), one entry per light of the snapshot, in the same order. A light without

@@ -69,6 +69,13 @@ std::uint32_t of_search(const Kernel& kernel, bool cube) {
     return kTapsPerOctave * kOctaves + std::max(2 * kernel.taps, of_votes(kernel, cube));
 }
 
+/// Counts the search of soft_triangles.glsl, its places by depth, and the triangles that it tests: their ids, their
+/// corners and the instance.
+std::uint32_t of_places(const Kernel&, bool) {
+    constexpr std::uint32_t kSearch = 32, kPlaces = 32, kTriangles = 24, kPerTriangle = 2 + 3 + 5;
+    return kSearch + kPlaces + kTriangles * kPerTriangle;
+}
+
 /// Counts a lookup in each mipmap level, up to a texel as wide as the widest penumbra, and four lookups between two
 /// levels.
 std::uint32_t of_levels(const Kernel&, bool) { return widest_penumbra_levels(kMostPenumbra_texel) + 4; }
@@ -136,6 +143,9 @@ constexpr FilterRow kRows[] = {
                 MapReading::depths, kDepthsAlone, 2.5f, 0.75f, nullptr, nullptr, AreaShares::spread}),
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/prefiltered/pcss_moments.glsl",
                           kFourMoments),
+    with_seeds({ShadowFilter::soft_triangles, "soft_triangles", "shadow/filters/soft_triangles/soft_triangles.glsl",
+                of_places, 3.0f, FilterWidth::source, MapReading::depths, kTriangleIds, 2.5f, 0.75f, nullptr, nullptr,
+                AreaShares::spread}),
     {ShadowFilter::exact, "exact", "shadow/filters/exact/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
      MapReading::depths, kConservativeBounds, 0.0f, 0.75f, nullptr, &kOneRay, AreaShares::marked},
     with_seeds({ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact/exact_soft.glsl", of_rays, 0.5f,

@@ -22,9 +22,9 @@ gl::TextureDesc map_desc(const LightItem& light, const ShadowRequest& request) {
             .layers = kind == gl::TextureKind::cube ? 1u : request.map.view_count};
 }
 
-gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
+gl::TextureDesc triangles_of(const gl::TextureDesc& map, gl::Format format) {
     gl::TextureDesc desc = without_label(map);
-    desc.format = kTriangleFormat;
+    desc.format = format;
     return desc;
 }
 
@@ -54,10 +54,10 @@ BoundsDescs bounds_descs_of(const gl::TextureDesc& map) {
     return {beside(kTriangleFormat, 1), beside(map.format, views), beside(gl::Format::rg32f, views)};
 }
 
-std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, const gl::TextureDesc& moments,
-                        const gl::TextureDesc& scratch) {
+std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, gl::Format references,
+                        const gl::TextureDesc& moments, const gl::TextureDesc& scratch) {
     std::uint64_t bytes = gl::byte_size(map);
-    if (storage.triangle_ids) bytes += gl::byte_size(triangles_of(map));
+    if (storage.triangle_ids) bytes += gl::byte_size(triangles_of(map, references));
     if (storage.conservative_bounds) {
         const BoundsDescs sheets = bounds_descs_of(map);
         bytes += gl::byte_size(sheets.triangles) + gl::byte_size(sheets.second) + gl::byte_size(sheets.bounds);
@@ -72,7 +72,8 @@ std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request) {
     if (!has_map(request)) return 0;
     const gl::TextureDesc map = map_desc(light, request);
     const PrefilterDescs moments = moments_of(map, request.map);
-    return map_bytes(map, filter_row(request.map.filter).storage, moments.texture, moments.scratch);
+    return map_bytes(map, filter_row(request.map.filter).storage, request.map.references.format(), moments.texture,
+                     moments.scratch);
 }
 
 }  // namespace gnomon::shadow

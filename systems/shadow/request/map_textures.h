@@ -10,7 +10,8 @@
 /// memory, which a steady frame must not do. Labels are added when a texture is created.
 namespace gnomon::shadow {
 
-/// Format of the triangle texture: instance and triangle per texel (shaders/shadow/filters/triangles/mesh_walk.glsl).
+/// Format of the triangle texture of a conservative map: instance and triangle per texel. Other maps have that of their
+/// TriangleReferences.
 inline constexpr gl::Format kTriangleFormat = gl::Format::rg32ui;
 
 gl::TextureDesc without_label(const gl::TextureDesc& desc);
@@ -18,8 +19,8 @@ gl::TextureDesc without_label(const gl::TextureDesc& desc);
 /// Describes the depth map, with the light's edge in this frame.
 gl::TextureDesc map_desc(const LightItem& light, const ShadowRequest& request);
 
-/// Describes the texture of the triangles that the map's texels show.
-gl::TextureDesc triangles_of(const gl::TextureDesc& map);
+/// Describes the texture of the triangles that the map's texels show, of TriangleReferences::format.
+gl::TextureDesc triangles_of(const gl::TextureDesc& map, gl::Format format);
 
 /// Prefiltered map, and the result of its blur's first pass. Width 0: there is none.
 struct PrefilterDescs {
@@ -42,9 +43,9 @@ struct BoundsDescs {
 BoundsDescs bounds_descs_of(const gl::TextureDesc& map);
 
 /// Returns the bytes of a map with all textures of its storage, and of `moments` and `scratch` where their width is not
-/// 0.
-std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, const gl::TextureDesc& moments,
-                        const gl::TextureDesc& scratch);
+/// 0. `references`: format of the triangles, if the storage has them.
+std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, gl::Format references,
+                        const gl::TextureDesc& moments, const gl::TextureDesc& scratch);
 /// Returns the bytes of the light's map. 0: it has none.
 std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request);
 

@@ -16,6 +16,7 @@ void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t
     }
     cached.layers.shown.resize(cached.layers.targets.size());
     remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still, cached.layers.shown[view.layer]);
+    cached.layers.shown[view.layer].proxy_m = view.error.proxy_m;
 }
 
 }  // namespace

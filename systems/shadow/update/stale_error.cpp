@@ -96,6 +96,8 @@ CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const 
 Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const ShownCasters& shown,
                     std::uint64_t static_content, std::span<const std::uint32_t> casters) {
     const auto moving = casters.subspan(std::min<std::size_t>(view.static_casters, casters.size()));
+    // What proxies need is an offset of its own.
+    if (view.error.proxy_m > 0.0 || shown.proxy_m > 0.0) return kUnknownStaleness;
     if (shown.still != static_content || shown.moving.size() != moving.size() || !(view.error.metre_px > 0.0))
         return kUnknownStaleness;
     CasterShift most;

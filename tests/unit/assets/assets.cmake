@@ -4,3 +4,7 @@ gnomon_tests(NAME unit_assets LABEL unit LIBRARIES nlohmann_json::nlohmann_json
           assets/material_import_test.cpp assets/mesh_import_test.cpp assets/scene_import_test.cpp
           assets/neighbours_test.cpp assets/surface_edges_test.cpp assets/taken_input_test.cpp assets/topology_test.cpp ../fuzz/gltf_mutation_test.cpp ../fuzz/gltf_mutator.cpp
           ../data/data_files.cpp)
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME unit_proxies LABEL unit LIBRARIES gnomon_sample
+    SOURCES assets/proxies_test.cpp ../data/data_files.cpp)
+endif()

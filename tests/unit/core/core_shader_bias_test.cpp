@@ -10,19 +10,7 @@
 namespace gnomon::bench::glsl {
 namespace {
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wkeyword-macro"
-#endif
-#define float double
-#define const static constexpr
-#define layout(...)
-#define uniform struct
-#define xy xy_()
-#define xyz xyz_()
-#define Bias(...) \
-    Bias { __VA_ARGS__ }
+#include "bench/glsl_on_cpu/begin_double.inc"
 struct AutomaticBias {
 #include "shaders/shadow/lookup/light_block.glsl"
 
@@ -37,14 +25,7 @@ struct GuideBias {
     bool orthographic = false;
 #include "tests/unit/core/shadow_offset.hlsl"
 };
-#undef float
-#undef const
-#undef layout
-#undef uniform
-#undef xy
-#undef xyz
-#undef Bias
-#pragma GCC diagnostic pop
+#include "bench/glsl_on_cpu/end_double.inc"
 
 vec3 turned(const core::View& view, const glm::dvec3& v) {
     return {glm::dot(v, view.axis_u), glm::dot(v, view.axis_v), glm::dot(v, view.axis_back)};

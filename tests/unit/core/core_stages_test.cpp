@@ -34,7 +34,7 @@ protected:
     const shadow::ShadowFrame& run_system() {
         extractor.update(world.registry, library, transforms.update(world.registry), {640, 360}, snapshot);
         SceneSnapshot boxes_only = snapshot;
-        boxes_only.shapes.clear();
+        boxes_only.meshes.shapes.clear();
         gl::CommandList list;
         EXPECT_TRUE(gpu->update(snapshot, list));
         const shadow::ShadowFrame& frame = system->update(boxes_only, *gpu, {}, list, report);

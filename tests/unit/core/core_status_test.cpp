@@ -214,11 +214,12 @@ TEST_F(CoreStatus, SurvivesAnySize) {
 
 TEST_F(CoreStatus, AllocatesNothingOnceWarm) {
     const auto turn = [&] {
-        for (int frame = 0; frame < 90; ++frame) {
-            const double angle = 2.0 * 3.14159265358979 * frame / 90;
+        constexpr int kFrames = 30;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const double angle = 2.0 * 3.14159265358979 * frame / kFrames;
             own.cameras[0].position_ws_m = {14.0 * std::sin(angle), 4.0, 14.0 * std::cos(angle)};
             own.cameras[0].rotation_ws = looking(-own.cameras[0].position_ws_m);
-            own.boxes.back().min_ws_m.x = -9.0 + 0.1 * (frame % 45);
+            own.boxes.back().min_ws_m.x = -9.0 + 0.3 * (frame % 15);
             own.boxes.back().max_ws_m.x = own.boxes.back().min_ws_m.x + 0.6;
             fit_shadows(own.scene(), {}, history, fits);
         }

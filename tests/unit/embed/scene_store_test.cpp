@@ -253,11 +253,11 @@ TEST_F(StreamedCasters, OneThatCannotBePlacedIsNamedAndTheOthersStay) {
 }
 
 TEST_F(StreamedCasters, AMeshThatCameWithItsCasterHasItsShape) {
-    const std::size_t shapes = store.snapshot().shapes.size();
+    const std::size_t shapes = store.snapshot().meshes.shapes.size();
     const MeshId mesh = add_mesh();
     add_at(mesh, {-5.0, 0.0, 0.0});
-    EXPECT_EQ(updated().shapes.size(), shapes + 1);
-    EXPECT_EQ(store.snapshot().shapes.back(), store.library().meshes[store.mesh_index(mesh)].shape);
+    EXPECT_EQ(updated().meshes.shapes.size(), shapes + 1);
+    EXPECT_EQ(store.snapshot().meshes.shapes.back(), store.library().meshes[store.mesh_index(mesh)].shape);
 }
 
 TEST_F(StreamedCasters, AllocateNothingOnceWarm) {

@@ -128,7 +128,7 @@ TEST_F(StreamingExtract, AMeshThatWentLeavesItsShapeBehind) {
     const ecs::Entity e = world.add_mesh(mesh, {0, 1, 0}, true);
     update();
     const std::weak_ptr<const math::ShapeTree> shape = library.meshes[mesh].shape;
-    ASSERT_EQ(snapshot.shapes.at(mesh), shape.lock());
+    ASSERT_EQ(snapshot.meshes.shapes.at(mesh), shape.lock());
     world.registry.destroy(e);
     update();
     library.remove(mesh);

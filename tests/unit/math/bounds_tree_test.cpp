@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <iostream>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <random>
 #include <string>
 
+#include "engine/math/frustum.h"
 #include "tests/unit/allocation_counter.h"
 #include "tests/unit/math/random_seed.h"
 
@@ -287,6 +292,97 @@ TEST(BoundsTree, AllocatesNothingOnceItHasHeldAsMany) {
     const std::size_t before = allocation_count();
     use();
     EXPECT_EQ(allocation_count(), before);
+}
+
+/// Planes in any direction, some along the axes through corners of `of`, as walls and frusta are.
+std::vector<Plane> planes_near(Boxes& random, const Aabb& of, std::size_t count) {
+    std::vector<Plane> planes;
+    for (std::size_t i = 0; i < count; ++i) {
+        glm::dvec3 normal = random.vector(1.0);
+        if (i % 3 == 0) normal = {0.0, i % 2 == 0 ? 1.0 : -1.0, 0.0};
+        planes.push_back({normal, -glm::dot(normal, i % 3 == 0 ? of.min : random.vector(60.0))});
+    }
+    return planes;
+}
+
+TEST(BoundsTree, TestsThatPartsInheritDecideAsAllTests) {
+    Boxes random(print_seed());
+    int cleared = 0, misled = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const Aabb outer = random.box(100.0, 50.0);
+        const std::vector<Plane> planes = planes_near(random, outer, 1 + static_cast<std::size_t>(round) % 8);
+        OpenTests open = open_tests(planes.size());
+        ASSERT_EQ(overlap(planes, outer, open), overlap(planes, outer));
+        cleared += open != 0 && open != open_tests(planes.size()) ? 1 : 0;
+        const glm::dvec3 a = glm::mix(outer.min, outer.max, glm::abs(random.vector(1.0)));
+        const glm::dvec3 b = glm::mix(outer.min, outer.max, glm::abs(random.vector(1.0)));
+        const Aabb inner{glm::min(a, b), glm::max(a, b)};
+        OpenTests none = 0;
+        misled += overlap(planes, inner, none) == overlap(planes, inner) ? 0 : 1;
+        ASSERT_EQ(overlap(planes, inner, open), overlap(planes, inner)) << round;
+    }
+    EXPECT_GT(cleared, 1000);
+    EXPECT_GT(misled, 1000) << "tests that are left out too early would not be noticed";
+}
+
+TEST(BoundsTree, ASearchWithInheritedTestsFindsTheSameItems) {
+    Boxes random(print_seed());
+    const std::vector<Aabb> boxes = random.boxes(3000);
+    BoundsTree tree;
+    build(tree, boxes);
+    std::size_t tested = 0, tested_by_parts = 0, all = 0;
+    for (int round = 0; round < 100; ++round) {
+        const std::vector<Plane> planes = planes_near(random, boxes[static_cast<std::size_t>(round)], 3);
+        std::vector<std::uint32_t> plain, inherited;
+        tree.visit(
+            [&](const Aabb& box) {
+                tested += planes.size();
+                return overlap(planes, box);
+            },
+            [&](std::uint32_t i) { plain.push_back(i); });
+        tree.visit(
+            open_tests(planes.size()),
+            [&](const Aabb& box, OpenTests& open) {
+                tested_by_parts += static_cast<std::size_t>(std::popcount(open));
+                return overlap(planes, box, open);
+            },
+            [&](std::uint32_t i) { inherited.push_back(i); });
+        ASSERT_EQ(inherited, plain);
+        all += plain.size();
+    }
+    EXPECT_GT(all, 1000u);
+    EXPECT_LT(tested_by_parts, tested) << "nothing is saved";
+    std::cout << tested_by_parts << " tests of planes in place of " << tested << "\n";
+}
+
+TEST(BoundsTree, TheLowestItemByNumberIsTheLowestItem) {
+    Boxes random(print_seed());
+    const std::vector<Aabb> boxes = random.boxes(500);
+    BoundsTree tree;
+    build(tree, boxes);
+    std::vector<Aabb> known(tree.numbers());
+    std::size_t again = 0;
+    for (int round = 0; round < 50; ++round) {
+        const glm::dvec3 direction = random.vector(1.0);
+        const auto height = [&](const Aabb& box) {
+            return glm::dot(direction, centre(box)) - glm::dot(glm::abs(direction), half_extent(box));
+        };
+        const double usual =
+            tree.lowest(height, [&](std::uint32_t i, double least) { return std::min(least, height(boxes[i])); });
+        const double by_number = tree.lowest_by_number(
+            [&](const Aabb& box, std::uint32_t number) {
+                again += is_empty(known[number]) ? 0 : 1;
+                EXPECT_TRUE(is_empty(known[number]) || known[number] == box) << "a number names two boxes";
+                known[number] = box;
+                return height(box);
+            },
+            [&](std::uint32_t i, double least, std::uint32_t number) {
+                EXPECT_TRUE(known[number] == boxes[i]);
+                return std::min(least, height(boxes[i]));
+            });
+        ASSERT_EQ(by_number, usual);
+    }
+    EXPECT_GT(again, 500u);
 }
 
 }  // namespace

@@ -76,10 +76,12 @@ TEST(InnerHull, ContainsWhatLiesInTheHullOfRandomPoints) {
         const int count = 4 + round;
         for (int i = 0; i < count; ++i) points.push_back(offset + random.vector(scale));
         const InnerHull hull = inner_hull(points);
+        std::size_t last_facet = static_cast<std::size_t>(round);  // may name no facet
         for (int i = 0; i < 20; ++i) {
             const glm::dvec3 middle = offset + random.vector(0.6 * scale), half = glm::abs(random.vector(0.1 * scale));
             const Aabb box{middle - half, middle + half};
             ++tried;
+            EXPECT_EQ(hull.contains(box, last_facet), hull.contains(box)) << "facet " << last_facet;
             if (!hull.contains(box)) continue;
             ++contained;
             EXPECT_LE(beyond(box, points, random), 1e-9 * scale) << "round " << round;

@@ -28,7 +28,7 @@ exit {status}
 
 
 class SamePictures(unittest.TestCase):
-    def compared(self, old, new, only="courtyard frozen"):
+    def compared(self, old, new, only="courtyard frozen", more=()):
         """(exit status, last line) for two games, each a dict of what differs from a sound one."""
         with tempfile.TemporaryDirectory() as folder:
             games = []
@@ -39,7 +39,7 @@ class SamePictures(unittest.TestCase):
                 games.append(str(game))
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                status = same_pictures.main([*games, "--data", f"{folder}/none", "--only", only])
+                status = same_pictures.main([*games, "--data", f"{folder}/none", "--only", only, *more])
             return status, printed.getvalue().splitlines()[-1]
 
     def test_equal_ones_are_equal_whatever_their_times(self):
@@ -49,6 +49,10 @@ class SamePictures(unittest.TestCase):
         for new in ({"picture": 'echo "another" >"$2"'}, {"draws": 4}, {"status": 1}):
             self.assertEqual(self.compared({}, new), (1, "0 of 1 cases are equal"), new)
             self.assertEqual(self.compared(new, {}), (1, "0 of 1 cases are equal"), new)
+
+    def test_counts_that_are_left_out_do_not_differ(self):
+        self.assertEqual(self.compared({}, {"draws": 4}, more=["--without", "aws"]), (0, "1 of 1 cases are equal"))
+        self.assertEqual(self.compared({}, {"draws": 4}, more=["--without", "draw"]), (1, "0 of 1 cases are equal"))
 
     def test_two_that_fail_alike_are_not_equal(self):
         for both in ({"status": 1}, {"status": 2}, {"picture": ":"}):

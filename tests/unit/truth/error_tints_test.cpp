@@ -42,6 +42,20 @@ TEST(ErrorTints, WhatIsRightIsDarkenedAndHasNoColour) {
     for (std::size_t i = 0; i < kPixels; ++i) EXPECT_EQ(tint_at(rgba, i), first) << i;
 }
 
+TEST(ErrorTints, OfASourceWithASizeAreWrongByMoreThanAHalfNotByTheSideOfIt) {
+    LightTruth truth = all_lit();
+    truth.visibility[kMiddle] = 0.45f;
+    std::vector<float> measured(kPixels, 1.0f);
+    measured[kMiddle] = 0.55f;
+    const auto near = tint_at(tinted(std::array{DrawnLight{measured, &truth}}), kMiddle);
+    EXPECT_LT(near[3], 255);
+    EXPECT_GT(near[2], near[0]) << "a little too bright";
+    measured[kMiddle] = 0.97f;
+    const auto far = tint_at(tinted(std::array{DrawnLight{measured, &truth}}), kMiddle);
+    EXPECT_EQ(far[3], 255);
+    EXPECT_GT(far[2], far[0]);
+}
+
 TEST(ErrorTints, AWrongPixelIsOpaqueInTheColourOfItsDirectionAndHasAHalo) {
     LightTruth truth = all_lit();
     std::vector<float> measured(kPixels, 1.0f);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "tests/oracle/reference_tracer.h"
+#include "tests/oracle/soft_truth.h"
 #include "tests/source_paths.h"
 #include "tests/unit/visibility/loaded_scene.h"
 
@@ -95,6 +97,78 @@ TEST(TruthOfAPicture, OfTheCourtyardIsTheReferencesHereAndFarAway) {
         const PictureTruth truth = traced(*scene);
         ASSERT_EQ(truth.lights.size(), 3u);
         expect_agreement(compared(*scene, truth));
+    }
+}
+
+/// Shares of the source by two tracers with other places on it, on surfaces that both count.
+struct SourceShares {
+    std::size_t counted = 0, penumbra = 0;
+    double off = 0.0, off_in_penumbra = 0.0, hard_off_in_penumbra = 0.0;
+};
+
+SourceShares shares_of(const test::LoadedScene& scene, const TracedLight& traced) {
+    const ConsumerItem& camera = scene.snapshot.consumers.front();
+    const oracle::ReferenceTracer reference(scene.snapshot, scene.library, camera.position_ws_m, kThreads);
+    const oracle::SoftTruth expected =
+        reference.trace_source(reference.trace_primary(camera), scene.snapshot.lights[traced.light], {});
+    SourceShares shares;
+    for (std::size_t i = 0; i < expected.visibility.size(); ++i) {
+        if (expected.scored[i] == 0 || traced.source->scored[i] == 0) continue;
+        const float share = expected.visibility[i];
+        const auto off = [&](float other) { return static_cast<double>(std::abs(other - share)); };
+        ++shares.counted;
+        shares.off += off(traced.source->visibility[i]);
+        if (share <= 0.0f || share >= 1.0f) continue;
+        ++shares.penumbra;
+        shares.off_in_penumbra += off(traced.source->visibility[i]);
+        shares.hard_off_in_penumbra += off(traced.truth.visibility[i]);
+    }
+    return shares;
+}
+
+#ifdef GNOMON_SANITIZED  // a minute each; the others run the same code
+constexpr std::array kAreaKinds{LightKind::rectangle};
+#else
+constexpr std::array kAreaKinds{LightKind::rectangle, LightKind::disc, LightKind::sphere, LightKind::tube};
+#endif
+
+TEST(TruthOfAPicture, OfASourceIsTheReferencesForEachKind) {
+    const auto scene = load(std::nullopt, 3.0);
+    scene->move_to(3.0, kSize_px / 2u);
+    const auto expect_same = [&](const char* name) {
+        SCOPED_TRACE(name);
+        const PictureTruth truth = traced(*scene);
+        for (const TracedLight& light : truth.lights) {
+            if (!light.source) continue;
+            SCOPED_TRACE(scene->snapshot.lights[light.light].name);
+            const SourceShares shares = shares_of(*scene, light);
+            const auto counted = static_cast<double>(shares.counted), penumbra = static_cast<double>(shares.penumbra);
+            EXPECT_GT(shares.counted, 1000u);
+            EXPECT_GT(shares.penumbra, 100u);
+            EXPECT_LT(shares.off - shares.off_in_penumbra, 0.001 * counted) << "where all is seen, or nothing";
+            EXPECT_LT(shares.off_in_penumbra, 0.02 * penumbra) << "two times 256 rays";
+            EXPECT_GT(shares.hard_off_in_penumbra, 2.0 * shares.off_in_penumbra) << "the control: the middle alone";
+            std::printf("off: %.5f beside penumbrae, %.4f in them, %.3f by the middle\n",
+                        (shares.off - shares.off_in_penumbra) / counted, shares.off_in_penumbra / penumbra,
+                        shares.hard_off_in_penumbra / penumbra);
+        }
+    };
+    const PictureTruth points = traced(*scene);
+    for (const TracedLight& light : points.lights) EXPECT_FALSE(light.source) << "a point has none";
+    for (LightItem& light : scene->snapshot.lights) {
+        light.source_radius_m = 0.1f;
+        light.sun_radius_rad = 0.02f;
+    }
+    expect_same("disks");
+    for (const LightKind kind : kAreaKinds) {
+        for (LightItem& light : scene->snapshot.lights) {
+            light.sun_radius_rad = 0.0f;
+            if (light.kind == LightKind::directional) continue;
+            light.kind = kind;
+            light.width_m = 0.4f;
+            light.height_m = 0.2f;
+        }
+        expect_same(to_text(kind));
     }
 }
 

@@ -39,6 +39,17 @@ TEST(LightQueries, ACasterDarkensWhatIsBehindItAndNothingElse) {
     EXPECT_EQ(scene.ask(scene.lamp({0.0, 0.3, 0.0}), kBelow), 1.0f) << "a lamp below it";
 }
 
+TEST(LightQueries, ASurfaceSeesOnlyThePartOfASourceThatIsBeforeIt) {
+    const QueryScene scene = cube_scene();
+    LightItem sun = scene.sun({0.0, 1.0, 0.0});
+    sun.sun_radius_rad = 0.1f;
+    // A side of the cube: half of the sun is behind its plane, and the cube stands before that half.
+    const glm::dvec3 side_m{0.5, 1.0, 0.2};
+    EXPECT_NEAR(scene.ask(sun, Place{side_m}, {.samples = 64}), 0.5f, 0.05f) << "a place in the air";
+    EXPECT_EQ(scene.ask(sun, Place{side_m, 0.0, {1.0, 0.0, 0.0}}, {.samples = 64}), 1.0f);
+    EXPECT_EQ(scene.ask(sun, Place{side_m, 0.0, {0.0, -1.0, 0.0}}, {.samples = 64}), 0.0f) << "all is behind it";
+}
+
 TEST(LightQueries, WithoutTheCasterItIsLight) {
     QueryScene scene = cube_scene();
     const LightItem sun = scene.sun({0.0, 1.0, 0.0});

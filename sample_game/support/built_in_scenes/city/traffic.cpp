@@ -59,11 +59,13 @@ ChannelSpec stroll(const CityKit& kit, std::uint32_t node, const glm::dvec3& mid
     return channel;
 }
 
+/// Adds the light of all headlamps. At its range it is 0.3 lux, a two-thousandth of the sun's.
 std::uint32_t add_headlamp(const CityKit& kit) {
     return kit.glb.add_light({.type = "spot",
                               .colour = {1.0, 0.95, 0.85},
                               .intensity = 12000.0,
-                              .cone = ConeSpec{glm::radians(12.0), glm::radians(26.0)}});
+                              .cone = ConeSpec{glm::radians(12.0), glm::radians(26.0)},
+                              .range_m = 200.0});
 }
 
 /// Adds the cars of a lane. Two of them have their headlamps on.

@@ -9,6 +9,7 @@
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
 #include "shadow/filters/pcf/texel_vote.glsl"
+#include "shadow/filters/pcss/stands_before.glsl"
 
 // Least radius of a penumbra. Narrower ones are left to votes, which measure the edge's distance up to about a texel.
 const float kLeastPenumbra_texel = 0.75;
@@ -37,6 +38,7 @@ const float kTapsPerTexel = 4.0;
 
 #if SHADOW_SPREAD
 #include "shadow/filters/area_spread.glsl"
+#include "shadow/filters/pcss/area_radius.glsl"
 
 // Moves a tap's receiver along its plane.
 void move_receiver(vec3 beside_m, inout ShadowPoint point, inout vec2 place) {
@@ -47,13 +49,6 @@ void move_receiver(vec3 beside_m, inout ShadowPoint point, inout vec2 place) {
 
 // Greatest radius of what votes blur: votes that all agree are a whole step away.
 const float kMostVoted_texel = kTexelPerVotes / kDiskStep;
-
-// Returns the radius of the pixel's area on the map, texels: that of a disk with the same variance.
-float area_radius_texel(ShadowPoint point) {
-    PixelArea area = pixel_area(point.position_ca, point.normal);
-    vec2 right = texels_moved(point, area.right), up = texels_moved(point, area.up);
-    return sqrt((dot(right, right) + dot(up, up)) / 6.0);
-}
 #endif
 
 #if LIGHT_AREA
@@ -65,14 +60,6 @@ vec2 on_map(ShadowPoint point, vec2 disk) {
     return point.source_texel * (disk + point.tangent * (dot(point.tangent, disk) * stretch));
 }
 #endif
-
-// Returns how far, in depth, what is stored there stands before the receiver. 0: it is not above the receiver's plane.
-float stands_before(ShadowPoint point, vec2 place, vec2 offset_texel) {
-    vec2 middle = floor(place + offset_texel) + 0.5;
-    float stored = shadow_depth(point, middle);
-    bool above = stored > point.reference + dot(point.slope, middle - place);
-    return above ? max(stored - point.reference, 0.0) : 0.0;
-}
 
 // Casters of two heights, in the order in which they are found: a low one's shadow is sharp also where a high one's is
 // not.

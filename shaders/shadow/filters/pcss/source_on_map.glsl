@@ -1,6 +1,7 @@
 // An area light as the receiver sees it in a map. Straight lines stay straight there, with depth as their length: a place
 // of the source is a direction.
-#include "shadow/lookup/source_place.glsl"
+#include "shadow/filters/pcss/area_axes.glsl"
+#include "shadow/filters/pcss/in_view.glsl"
 const float kNearestPlace = 0.2;   // least share of the receiver's depth that a place of the source is off it
 
 struct MapSource {
@@ -9,39 +10,11 @@ struct MapSource {
 };
 MapSource map_source = MapSource(vec3(0.0), vec3(0.0), 1.0);   // as the receiver sees it
 
-#ifdef SHADOW_CUBE
-// Returns a vector's parts along u, v and the way toward the light, in the point's face.
-vec3 in_view(ShadowPoint point, vec3 v) { return turned_back(v) * face_axes(point.position); }
-
-float view_distance_m(ShadowPoint point) { return largest(point.position); }
-#else
-// Returns a vector's parts along u, v and the way toward the light, in the point's view.
-vec3 in_view(ShadowPoint point, vec3 v) {
-    ViewRecord view = light.views[point.view];
-    return vec3(dot(v, view.axis_u.xyz), dot(v, view.axis_v.xyz), dot(v, view.axis_back.xyz));
-}
-
-float view_distance_m(ShadowPoint point) {
-    ViewRecord view = light.views[point.view];
-    return view.axis_back.w / max(point.reference - view.numeric.z, 1e-30);
-}
-#endif
-
-// Returns half axes of the source. A round one is taken as what faces the receiver: a disk of a sphere, a strip of a
-// tube.
 MapSource source_on_map(ShadowPoint point) {
-    AreaSource source = source_seen(light.position.xyz + light.low.xyz - point.position_ca);
-    vec3 first = source.right, second = source.up;
-    if (kShape == kSphereShape) {
-        mat3 axes = axes_around(normalize(source.middle_m));
-        first = axes[0];
-        second = axes[1];
-    }
-    vec3 beside = cross(source.right, source.middle_m);
-    if (kShape == kTubeShape && dot(beside, beside) > 0.0) second = normalize(beside);
+    SourceAxes axes = area_axes(point.position_ca);
     MapSource seen;
-    seen.first_m = in_view(point, first * source.half_width_m);
-    seen.second_m = in_view(point, second * source.half_height_m);
+    seen.first_m = in_view(point, axes.right_m);
+    seen.second_m = in_view(point, axes.up_m);
     seen.z_m = view_distance_m(point);
     return seen;
 }

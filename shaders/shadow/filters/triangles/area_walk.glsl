@@ -1,6 +1,7 @@
 // Triangles over an area: what texels around it show, and the neighbours in the mesh as far as they overlap it. They
 // darken the places behind them.
 #include "shadow/filters/triangles/area_places.glsl"
+#include "shadow/filters/triangles/visited.glsl"
 
 // Triangles that texels show: four around the receiver, and blocks of four around its pixel's area.
 struct ShownTriangles { FourTriangles inner, a, b, c, d; };
@@ -9,8 +10,6 @@ struct ShownTriangles { FourTriangles inner, a, b, c, d; };
 const int kMostOverArea = 20;
 // Most triangles in a row that lie beside the area, on the way to it.
 const int kMostBeside = 1;
-const uint kNothing = 0xfffffffcu;   // in place of a triangle: there is no next one
-const uvec4 kNoTriangles = uvec4(kNoTriangle);
 
 // Returns the triangle of the lowest bit.
 uvec2 start_at(ShownTriangles shown, int bits) {
@@ -41,21 +40,6 @@ struct AreaStarts {
     uint places;  // bits of places with own texels that start
 };
 
-// Triangles that were visited last.
-struct Visited { uvec4 last, before, first; };
-
-uint key_of(uvec2 at) { return at.y ^ at.x * 2654435769u; }   // another for nearly every instance and triangle
-
-Visited with(Visited visited, uvec2 at) {
-    return Visited(uvec4(key_of(at), visited.last.xyz), uvec4(visited.last.w, visited.before.xyz),
-                   uvec4(visited.before.w, visited.first.xyz));
-}
-
-bool is_among(uvec2 at, Visited visited) {
-    uvec4 key = uvec4(key_of(at));
-    return any(equal(visited.last, key)) || any(equal(visited.before, key)) || any(equal(visited.first, key));
-}
-
 // Goes over the triangles that start and their neighbours: over the edges that places lie beyond which are not dark yet,
 // or toward the area. Where a triangle faces the light the other way than the first, the mesh folds back: what lies
 // beyond is under what came before.
@@ -68,7 +52,7 @@ void darken_places(ShadowPoint point, AreaStarts starts, inout AreaPlaces area) 
     int left = starts.texels;
     uint places_left = starts.places;
     uvec2 at = left == 0 ? uvec2(0u, kNothing) : start_at(starts.shown, left);   // instance, triangle
-    Visited visited = Visited(kNoTriangles, kNoTriangles, kNoTriangles);
+    Visited visited = none_visited();
     uvec4 waiting = kNoTriangles;   // neighbours, of the same instance
     int steps = 0, beside = 0;
     float first_faces = 0.0;
@@ -78,10 +62,8 @@ void darken_places(ShadowPoint point, AreaStarts starts, inout AreaPlaces area) 
         bool known = at.y != kNoTriangle && at.y != kNothing;
         InstanceRecord instance = instance_record(at.x);
         CasterTriangle t = caster_triangle(known ? at.y : 0u);
-        vec3 a_ca = corner_ca(instance, t.a);
-        vec3 a = a_ca - point.position_ca;
-        vec3 b = corner_ca(instance, t.b) - point.position_ca;
-        vec3 c = corner_ca(instance, t.c) - point.position_ca;
+        SeenCorners corners = corners_from(point.position_ca, instance, t);
+        vec3 a_ca = corners.a_ca, a = corners.a, b = corners.b, c = corners.c;
         vec3 ab = b - a, ac = c - a;
         vec3 normal = cross(ab, ac);
         vec3 to_light = toward_light(a_ca);

@@ -24,6 +24,20 @@ vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
     return position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
 }
 
+// Corners of a triangle as seen from a place. a_ca: the first one, relative to the anchor.
+struct SeenCorners {
+    vec3 a_ca, a, b, c;
+};
+
+SeenCorners corners_from(vec3 position_ca, InstanceRecord instance, CasterTriangle t) {
+    SeenCorners corners;
+    corners.a_ca = corner_ca(instance, t.a);
+    corners.a = corners.a_ca - position_ca;
+    corners.b = corner_ca(instance, t.b) - position_ca;
+    corners.c = corner_ca(instance, t.c) - position_ca;
+    return corners;
+}
+
 // Returns how far off a place may be along the view, metres. A place is rebuilt along the view. Where its surface is
 // seen aslant, it is farther off in that direction than error_m, and thus from the planes of others. Beside a crease it
 // may lie behind what it meets there.
@@ -77,10 +91,8 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
     if (left != 0) do {
         InstanceRecord instance = instance_record(at.x);
         CasterTriangle t = caster_triangle(at.y == kNoTriangle ? 0u : at.y);
-        vec3 a_ca = corner_ca(instance, t.a);
-        vec3 a = a_ca - position_ca;
-        vec3 b = corner_ca(instance, t.b) - position_ca;
-        vec3 c = corner_ca(instance, t.c) - position_ca;
+        SeenCorners corners = corners_from(position_ca, instance, t);
+        vec3 a_ca = corners.a_ca, a = corners.a, b = corners.b, c = corners.c;
         vec3 ab = b - a, ac = c - a;
         vec3 normal = cross(ab, ac);
         vec3 to_light = toward_light(a_ca);

@@ -5,7 +5,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     ViewRecord view = light.views[i];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
     vec3 n_map = vec3(dot(normal, view.axis_u.xyz), dot(normal, view.axis_v.xyz), dot(normal, view.axis_back.xyz));
-    float rounding_m = error_m + view.numeric.y + kPositionRounding * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
+    float rounding_m = error_m + kept_off_m(view, position_ca) + kPositionRounding * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
     float nearer_m = taken(rounding_m);
@@ -23,7 +23,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     point.source_texel = source_texel;
     point.spread_texel = spread;
     point.carried_aa = position_la + normal * nearer_m;
-    point.position_ca = position_ca;
+    point.position_ca = off_proxies(view, position_ca, normal);
     point.facts = facts_orthographic(view, bias, cascade_range_m(view, position_la));
     // A cascade draws only what can darken its own depth range: points before it are served by the next one.
     point.covered = point.covered && projected.z <= projected.w;

@@ -104,7 +104,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     vec3 normal = turned_back(normal_ws);
     mat3 map_axes = face_axes(position_la);
     vec3 axis_u = map_axes[0], axis_v = map_axes[1];
-    float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_la);
+    float rounding_m = error_m + kept_off_m(view, position_ca) + kPositionRounding * length(position_la);
     // Near a seam some taps land on the neighbour. Its axes see the plane's other tangents: all three count.
     vec3 n_map = normal * map_axes;
     float z_m = largest(position_la);
@@ -143,7 +143,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     point.bias_depth = bias.depth;
     point.plane_m = carried_m;
     point.spread_texel = spread;
-    point.position_ca = position_ca;
+    point.position_ca = off_proxies(view, position_ca, normal_ws);
     point.facts = facts_perspective(view, bias, length(position_la), z_m);
     vec3 in_face = point.position * face_axes(point.position);
     point.tangent = vec2(in_face.x, in_face.y) / largest(point.position);

@@ -16,7 +16,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     mat3 map_axes = mat3(view.axis_u.xyz, view.axis_v.xyz, view.axis_back.xyz);
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
-    float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_aa);
+    float rounding_m = error_m + kept_off_m(view, position_ca) + kPositionRounding * length(position_aa);
     float plane_m = -dot(normal, position_la);
     float nearer_m = plane_m - carried_plane_m(plane_m, length(position_la), rounding_m);
     if (kReadsDepths) rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
@@ -33,7 +33,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     point.tangent = vec2(position_map.x, position_map.y) / -position_map.z;
     point.spread_texel = spread;
     point.carried_aa = position_aa + normal * nearer_m;
-    point.position_ca = position_ca;
+    point.position_ca = off_proxies(view, position_ca, normal);
     point.facts = facts_perspective(view, bias, length(position_la), -position_map.z);
     return point;
 }

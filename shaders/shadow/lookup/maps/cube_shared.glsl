@@ -66,6 +66,9 @@ FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     return shown;
 }
 
+// Returns the instance and the triangle that a texel shows; beyond the face's edge what the neighbour stores there.
+uvec2 shadow_triangle_at(ShadowPoint point, vec2 middle) { return shared_id(place_of(direction_to(point, middle))); }
+
 // Returns the sides of a texel, tangents.
 vec2 shadow_texel_sides(ShadowPoint point) { return vec2(light.views[0].axis_u.w, light.views[0].axis_v.w); }
 

@@ -6,21 +6,27 @@ layout(binding = kShownTriangleUnit) uniform usamplerCube shadow_triangles;   //
 
 // Returns what the four texels around a corner show.
 FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
-    FourTriangles shown;
-    shown.instance = shown.triangle = uvec4(0u);
+    uvec4 first = uvec4(0u), second = uvec4(0u);
+    int bits = int(light.moment_sampling.w);
     vec3 direction = direction_to(point, corner);
     bool gathers = is_inside(point, corner);
     if (gathers) {
-        shown.instance = textureGather(shadow_triangles, direction, 0);
-        shown.triangle = textureGather(shadow_triangles, direction, 1);
+        first = textureGather(shadow_triangles, direction, 0);
+        if (bits == 0) second = textureGather(shadow_triangles, direction, 1);
     }
     int i = 0;
     if (!gathers) do {
         uvec4 one = textureLod(shadow_triangles, direction_to(point, corner + toward_gathered(i)), 0.0);
-        shown.instance[i] = one.x;
-        shown.triangle[i] = one.y;
+        first[i] = one.x;
+        second[i] = one.y;
     } while (++i < 4);
-    return shown;
+    return unpacked_triangles(first, second, bits);
+}
+
+// Returns the instance and the triangle that a texel shows; beyond the face's edge what the neighbour stores there.
+uvec2 shadow_triangle_at(ShadowPoint point, vec2 middle) {
+    uvec4 shown = textureLod(shadow_triangles, direction_to(point, middle), 0.0);
+    return unpacked_triangle(shown.xy, int(light.moment_sampling.w));
 }
 
 // Returns the sides of a texel, tangents.

@@ -31,5 +31,8 @@ FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     return shared_ids(vec3(corner * point.texel_uv, point.layer));
 }
 
+// Returns the instance and the triangle that a texel shows.
+uvec2 shadow_triangle_at(ShadowPoint point, vec2 middle) { return shared_id(vec3(middle * point.texel_uv, point.layer)); }
+
 // Returns the sides of a texel: metres, or tangents from a lamp.
 vec2 shadow_texel_sides(ShadowPoint point) { return vec2(light.views[point.view].axis_u.w, light.views[point.view].axis_v.w); }

@@ -73,7 +73,7 @@ vec3 shadow_tint(vec3 position_ca, vec3 normal, float error_m) {
     // How far the plane may lie nearer to the light (docs/explanation/bias.md): by the place's own error, the normal's
     // over one texel, and snapped corners.
     float w = place.projected.w;
-    float off_m = error_m + view.numeric.y + kPositionRounding * (abs(place.position_va.x) + abs(place.position_va.y) + abs(place.position_va.z)) +
+    float off_m = error_m + max(view.numeric.y, 0.0) + kPositionRounding * (abs(place.position_va.x) + abs(place.position_va.y) + abs(place.position_va.z)) +
                   kNormalError_rad * w * (length(over_u) + length(over_v));
     float depth_per_m = abs(dot(around.along_depth, around.ray) / (w * facing));
     float nearer = view.numeric.x + 7.0 * kUnitRoundoff * place.map.z + off_m * depth_per_m + kRasterSnap_texel * (abs(slope.x) + abs(slope.y));

@@ -16,7 +16,7 @@ layout(location = kPositionAttribute) in vec3 position_ms;
 layout(location = kUvAttribute) in vec2 uv;
 layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance; face (LAYERED) in the lowest three bits, first
                                                             // triangle of the draw above
-layout(location = kItemVarying) flat out uvec2 item_out;
+layout(location = kItemVarying) flat out uvec3 item_out;
 layout(location = kUvVarying) out vec2 uv_out;
 layout(location = kColourVarying) out vec4 colour_out;
 
@@ -26,7 +26,8 @@ void main() {
     vec3 position_as = position_from_anchor(instance_record(draw_item.x), position_ms, view.anchor_high.xyz, view.anchor_low.xyz);
     precise vec4 position_cs = view.clip_from_anchor * vec4(position_as, 1.0);
     gl_Position = position_cs;
-    item_out = draw_item;
+    uint bits = uint(view.anchor_high.w);
+    item_out = uvec3(draw_item.x << bits, draw_item.y, (1u << bits) - 1u);
     uv_out = uv;
     colour_out = vertex_colour();
     send_to(face);

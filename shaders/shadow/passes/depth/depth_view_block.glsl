@@ -2,7 +2,8 @@
 #include "common/bindings.glsl"
 struct DepthView {
     mat4 clip_from_anchor;
-    vec4 anchor_high;   // xyz; w: texels along an edge of the map (shaders/shadow/passes/bounds)
+    vec4 anchor_high;   // xyz; w: texels along an edge of the map (shaders/shadow/passes/bounds), or bits of a triangle's
+                        // number in the map's triangles (shown_triangle.glsl)
     vec4 anchor_low;    // xyz; w: layer of the map
 };
 #ifdef LAYERED

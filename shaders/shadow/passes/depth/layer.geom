@@ -2,10 +2,10 @@
 #include "common/bindings.glsl"
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
-layout(location = kItemVarying) flat in uvec2 item_in[];
+layout(location = kItemVarying) flat in uvec3 item_in[];
 layout(location = kUvVarying) in vec2 uv_in[];
 layout(location = kColourVarying) in vec4 colour_in[];
-layout(location = kItemVarying) flat out uvec2 item_out;
+layout(location = kItemVarying) flat out uvec3 item_out;
 layout(location = kUvVarying) out vec2 uv_out;
 layout(location = kColourVarying) out vec4 colour_out;
 

@@ -51,8 +51,14 @@ TEST(LobeTable, IsWhatTheProgramFits) {
     }
 }
 
+#ifdef GNOMON_SANITIZED
+constexpr std::array kColumns{24u};  // an integral over the hemisphere for each; all of them take half a minute there
+#else
+constexpr std::array kColumns{16u, 24u, 31u};
+#endif
+
 TEST(LobeTable, ReflectsWhatTheSurfaceDoes) {
-    for (const LobePart part : kParts) for (const std::uint32_t column : {16u, 24u, 31u})
+    for (const LobePart part : kParts) for (const std::uint32_t column : kColumns)
         for (const std::uint32_t row : {0u, 12u, 24u, 30u}) {
             const double alpha = alpha_of(column), cosine = cosine_of(row);
             const FittedLobe lobe = in_table(part, column, row);
@@ -68,7 +74,7 @@ TEST(LobeTable, ReflectsWhatTheSurfaceDoes) {
 }
 
 TEST(LobeTable, HasTheShapeOfTheSurfacesLobe) {
-    for (const LobePart part : kParts) for (const std::uint32_t column : {16u, 24u, 31u})
+    for (const LobePart part : kParts) for (const std::uint32_t column : kColumns)
         for (const std::uint32_t row : {0u, 12u, 24u}) {
             const double alpha = alpha_of(column), cosine = cosine_of(row);
             const FittedLobe lobe = in_table(part, column, row), other = in_table(part, column, row + 6);

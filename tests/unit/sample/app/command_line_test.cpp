@@ -47,6 +47,7 @@ TEST(CommandLine, ABudgetIsANumberAboveNothing) {
     const CommandLine l = parse({"--shadow-bytes", "67108864", "--shadow-ms=4.5", "--shadow-rays", "90000"}).value();
     EXPECT_EQ(l.shadow_budget, (shadow::ShadowBudget{64u << 20, 4.5f, 90000}));
     EXPECT_EQ(parse({}).value().shadow_budget, shadow::ShadowBudget{});
+    EXPECT_EQ(parse({"--shadow-bytes", "any"}).value().shadow_budget.bytes, shadow::ShadowBudget::kUnlimited);
     for (const char* bad : {"0", "-1", "", "64M", "1e6", "99999999999999999999"})
         EXPECT_FALSE(parse({"--shadow-bytes", bad}) || parse({"--shadow-rays", bad})) << bad;
     for (const char* bad : {"0", "-1", "", "nan", "inf", "4ms", "1e9"})

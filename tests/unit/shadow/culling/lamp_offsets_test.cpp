@@ -28,9 +28,9 @@ protected:
         return lamps_ws_m.at(0);
     }
     void finish() {
-        scene.snapshot.shapes.clear();
+        scene.snapshot.meshes.shapes.clear();
         for (const assets::Mesh& mesh : scene.library.meshes)
-            if (GetParam()) scene.snapshot.shapes.push_back(assets::shape_of(mesh));
+            if (GetParam()) scene.snapshot.meshes.shapes.push_back(assets::shape_of(mesh));
         for (InstanceItem& item : scene.snapshot.instances) {
             item.bounds_ws = {};
             for (const assets::Vertex& vertex : scene.library.meshes[item.mesh].vertices)

@@ -22,7 +22,7 @@ struct Meshes {
     std::uint32_t add(assets::Mesh mesh, bool shaped = true) {
         for (const assets::Vertex& v : mesh.vertices)
             mesh.bounds_ms = math::extended(mesh.bounds_ms, glm::dvec3(v.position_ms));
-        scene.shapes.push_back(shaped ? assets::shape_of(mesh) : nullptr);
+        scene.meshes.shapes.push_back(shaped ? assets::shape_of(mesh) : nullptr);
         meshes.push_back(std::move(mesh));
         return static_cast<std::uint32_t>(meshes.size() - 1);
     }
@@ -163,7 +163,7 @@ TEST(NearestReceiver, IsNoFartherThanAnyPointThatIsSeen) {
         ++(std::isfinite(least_m) ? seen : unseen);
         build_tree(world.scene);
         EXPECT_EQ(world.nearest_m(), found_m) << "by the instances' tree";
-        world.scene.shapes.clear();
+        world.scene.meshes.shapes.clear();
         const double by_bounds_m = world.nearest_m();
         EXPECT_LE(by_bounds_m, found_m * (1.0 + 1e-5) + 1e-4) << "bounds know less";
         farther += found_m > by_bounds_m + 0.5 ? 1 : 0;
@@ -200,7 +200,7 @@ TEST(NearestReceiver, IsTheWallOfARoomAndNotItsBox) {
     // Wider, it sees the floor first, 1.7 m below. A leaf's box reaches past the border by its own size at most.
     world.scene.consumers[0].fov_y_rad = 1.2;
     EXPECT_NEAR(world.nearest_m(), 1.7 / std::tan(0.6), 1e-3) << "the floor is flat along the box's sides";
-    world.scene.shapes.clear();
+    world.scene.meshes.shapes.clear();
     EXPECT_NEAR(world.nearest_m(), camera.near_m, 1e-4) << "the box is all around the camera";
 }
 
@@ -321,7 +321,7 @@ TEST(NearestReceiver, IsWhereTheFirstCascadeBegins) {
         ASSERT_EQ(found.fitted.views.size(), 4u);
         EXPECT_LE(found.fitted.views[0].cascade.seen_from_m, nearest_m);
         EXPECT_GT(found.fitted.views[0].cascade.seen_from_m, nearest_m / std::exp2(0.5));
-        world.scene.shapes.clear();
+        world.scene.meshes.shapes.clear();
         const ShadowFrame by_bounds = fitted(world.scene);
         ASSERT_FALSE(by_bounds.fitted.views.empty());
         EXPECT_LT(by_bounds.fitted.views[0].cascade.seen_from_m, 0.1);
@@ -332,7 +332,7 @@ TEST(NearestReceiver, IsWhereTheFirstCascadeBegins) {
 TEST(NearestReceiver, MovesNoStableFit) {
     Meshes world = lit_room(ShadowFit::stable);
     const ShadowFrame found = fitted(world.scene);
-    world.scene.shapes.clear();
+    world.scene.meshes.shapes.clear();
     const ShadowFrame by_bounds = fitted(world.scene);
     for (const ShadowView& view : found.fitted.views) {
         const auto same = std::find_if(by_bounds.fitted.views.begin(), by_bounds.fitted.views.end(),
@@ -353,7 +353,7 @@ TEST(NearestReceiver, OfAViewPastEverythingLeavesNothingToShadow) {
     world.scene.consumers[0] = camera_at({0.0, -2.0, 3.0}, {0.0, 1.0, 0.5});
     EXPECT_EQ(world.nearest_m(), kInfinity);
     EXPECT_EQ(fitted(world.scene).statuses[0].skipped(), Reason::no_visible_receiver);
-    world.scene.shapes.clear();
+    world.scene.meshes.shapes.clear();
     EXPECT_NE(fitted(world.scene).statuses[0].skipped(), Reason::no_visible_receiver) << "its box is seen";
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "systems/shadow/culling/receiver_hull.h"
+#include "systems/shadow/projection/light_range.h"
+#include "tests/unit/math/random_seed.h"
 #include "tests/unit/shadow/random_scene.h"
 
 namespace gnomon::shadow {
@@ -143,6 +147,72 @@ TEST_F(SweptVolumeTest, FewBoxesThatTouchNoRayAreKept) {
     }
     EXPECT_GT(met, 500);
     EXPECT_LT(kept - met, kept / 6) << "of " << kept << "; 400 rays miss some that are only grazed";
+}
+
+/// Makes a box somewhere in another one.
+math::Aabb part_of(const math::Aabb& box, std::mt19937_64& random) {
+    const auto share = [&] {
+        std::uniform_real_distribution<double> number(0.0, 1.0);
+        return glm::dvec3(number(random), number(random), number(random));
+    };
+    const glm::dvec3 a = glm::mix(box.min, box.max, share()), b = glm::mix(box.min, box.max, share());
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
+TEST_F(SweptVolumeTest, PartsOfABoxInheritWhatNeedsNoTest) {
+    std::mt19937_64 random(print_seed());
+    int saved = 0, misled = 0;
+    for (const SweptVolume& v : {from_lamp(), from_sun(glm::normalize(glm::dvec3(1.0, 1.0, 0.0)))}) {
+        const math::Aabb around{glm::dvec3(-4.0, -1.0, -4.0), glm::dvec3(6.0, 22.0, 4.0)};
+        for (int round = 0; round < 20000; ++round) {
+            const math::Aabb outer = part_of(around, random), inner = part_of(outer, random);
+            math::OpenTests open = tests_of(v), none = 0;
+            ASSERT_EQ(overlap(v, outer, open), overlap(v, outer));
+            saved += open != tests_of(v) ? 1 : 0;
+            ASSERT_EQ(overlap(v, inner, open), overlap(v, inner));
+            misled += overlap(v, inner, none) == overlap(v, inner) ? 0 : 1;
+        }
+    }
+    EXPECT_GT(saved, 1000);
+    EXPECT_GT(misled, 1000);
+}
+
+TEST(SeenReachTest, LeavesOutWhatAllTestsLeaveOut) {
+    std::mt19937_64 random(print_seed());
+    int inside = 0, outside = 0, saved = 0;
+    for (const LightKind kind : {LightKind::spot, LightKind::point, LightKind::rectangle}) {
+        LightItem light;
+        light.kind = kind;
+        light.position_ws_m = {1.0, 3.0, 2.0};
+        light.rotation_ws = math::basis_from_back({0.3, 1.0, 0.2});
+        light.outer_cone_rad = 0.7;
+        light.range_m = 6.0;
+        const LightReach reach(light);
+        const math::Frustum frustum = math::perspective_frustum({0.0, 1.0, 9.0}, glm::dmat3(1.0), 0.8, 0.6, 0.1, 30.0);
+        const SeenReach seen(math::planes_of(frustum), reach);
+        for (int round = 0; round < 20000; ++round) {
+            const math::Aabb outer = part_of({glm::dvec3(-8.0), glm::dvec3(9.0)}, random);
+            const math::Aabb inner = part_of(outer, random);
+            const auto usual = [&](const math::Aabb& box) {
+                return math::overlap(math::planes_of(frustum), box) != math::Overlap::outside &&
+                       reach.overlap(box) != math::Overlap::outside;
+            };
+            math::OpenTests open = seen.tests();
+            const math::Overlap of_outer = seen.overlap(outer, open);
+            ASSERT_EQ(of_outer != math::Overlap::outside, usual(outer));
+            outside += of_outer == math::Overlap::outside ? 1 : 0;
+            saved += open != seen.tests() ? 1 : 0;
+            if (of_outer == math::Overlap::inside) {
+                ++inside;
+                ASSERT_TRUE(usual(inner));
+            }
+            if (of_outer != math::Overlap::partial) continue;
+            ASSERT_EQ(seen.overlap(inner, open) != math::Overlap::outside, usual(inner));
+        }
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_GT(outside, 1000);
+    EXPECT_GT(saved, 1000);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct Input {
     ShadowView view;
     std::uint32_t size_px = 512;
     SceneSnapshot scene;
-    std::vector<std::uint32_t> casters{0, 1, 2};
+    std::vector<std::uint32_t> casters{0, 1, 2}, meshes;
     CasterFaces faces = CasterFaces::automatic;
     Input() {
         for (std::uint32_t i = 0; i < 4; ++i) {
@@ -22,7 +22,7 @@ struct Input {
             scene.instances.push_back(item);
         }
     }
-    std::uint64_t signature() const { return content_signature(view, size_px, scene, casters, faces).all; }
+    std::uint64_t signature() const { return content_signature(view, size_px, scene, casters, meshes, faces).all; }
 };
 
 TEST(ContentSignature, IsTheSameForTheSameAndNeverZero) {
@@ -36,9 +36,21 @@ TEST(ContentSignature, IsTheSameForTheSameAndNeverZero) {
 TEST(ContentSignature, EveryThingThatDecidesThePictureChangesIt) {
     std::vector<std::function<void(Input&)>> edits = {
         [](Input& i) { i.size_px = 513; },
-        [](Input& i) { i.casters = {0, 1}; },
-        [](Input& i) { i.casters = {0, 1, 3}; },
-        [](Input& i) { i.casters = {0, 1, 2, 3}; },
+        [](Input& i) {
+            i.casters = {0, 1};
+        },
+        [](Input& i) {
+            i.meshes = {0, 0, 5};
+        },
+        [](Input& i) {
+            i.meshes = {0, 5, 0};
+        },
+        [](Input& i) {
+            i.casters = {0, 1, 3};
+        },
+        [](Input& i) {
+            i.casters = {0, 1, 2, 3};
+        },
         [](Input& i) { i.casters.clear(); },
         [](Input& i) { ++i.scene.instances[1].version; },
         [](Input& i) { i.scene.instances[1].gpu_slot = 9; },

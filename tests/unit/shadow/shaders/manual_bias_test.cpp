@@ -11,21 +11,7 @@
 namespace gnomon::bench::glsl {
 namespace {
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wkeyword-macro"
-#endif
-#define float double
-#define const static constexpr
-#define layout(...)
-#define uniform struct
-#define xy xy_()
-#define xyz xyz_()
-#define Bias(...) \
-    Bias { __VA_ARGS__ }
-#define BiasPlace(...) \
-    BiasPlace { __VA_ARGS__ }
+#include "bench/glsl_on_cpu/begin_double.inc"
 struct Shader {
 #include "shaders/shadow/lookup/light_block.glsl"
 
@@ -33,15 +19,7 @@ struct Shader {
 
 #include "shaders/shadow/lookup/bias/manual.glsl"
 };
-#undef float
-#undef const
-#undef layout
-#undef uniform
-#undef xy
-#undef xyz
-#undef Bias
-#undef BiasPlace
-#pragma GCC diagnostic pop
+#include "bench/glsl_on_cpu/end_double.inc"
 
 constexpr double kRange_m = 50.0, kTexel_m = 0.02, kBias_m = 0.03, kTexels = 1.5;
 const double kCosine = std::cos(1.1), kSine = std::sin(1.1), kTangent = std::tan(1.1);

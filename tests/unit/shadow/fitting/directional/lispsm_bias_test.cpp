@@ -13,29 +13,13 @@ namespace {
 constexpr int kSize_px = 1024;
 vec2 shadow_map_size() { return {kSize_px, kSize_px}; }
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wkeyword-macro"
-#endif
-#define float double
-#define const static constexpr
-#define layout(...)
-#define uniform struct
-#define xy xy_()
-#define xyz xyz_()
+#include "bench/glsl_on_cpu/begin_double.inc"
 struct Shader {
 #include "shaders/shadow/lookup/light_block.glsl"
 #include "shaders/shadow/lookup/bias/automatic.glsl"
 #include "shaders/shadow/lookup/bias/lispsm.glsl"
 };
-#undef float
-#undef const
-#undef layout
-#undef uniform
-#undef xy
-#undef xyz
-#pragma GCC diagnostic pop
+#include "bench/glsl_on_cpu/end_double.inc"
 
 constexpr double kReach_texel = 0.5;
 

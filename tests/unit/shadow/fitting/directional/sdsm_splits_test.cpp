@@ -168,7 +168,7 @@ SceneSnapshot two_suns() {
 
 /// Two suns' fits of so many cascades.
 struct TwoFits {
-    explicit TwoFits(std::uint32_t cascades) : fitted{std::vector<FitChoice>(2), {}, {}, {}}, statuses(2) {
+    explicit TwoFits(std::uint32_t cascades) : fitted{std::vector<FitChoice>(2), {}, {}, {}, {}}, statuses(2) {
         for (FitChoice& light : fitted.lights) light.request.map.view_count = cascades;
     }
     bool want(const SceneSnapshot& scene) const { return wants_sampled_depths(scene, fitted, statuses); }

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "systems/extract/snapshot.h"
+
+namespace gnomon::shadow {
+
+/// Layers of all instances, two bytes each. Searches of the tree read these in random order, and an InstanceItem has
+/// 208 bytes.
+class InstanceLayers {
+public:
+    /// Reads the scene's instances, unless its list_version is that of the last call.
+    void update(const SceneSnapshot& scene);
+    /// Returns casts_under() of an instance.
+    bool casts_under(const LightItem& light, std::uint32_t i) const { return (light.shadow.layers & casts_[i]) != 0; }
+    /// Returns receives_under() of an instance that is visible; false of others.
+    bool shows_shadows_of(const LightItem& light, std::uint32_t i) const {
+        return (light.shadow.layers & shows_[i]) != 0;
+    }
+
+private:
+    std::vector<ShadowLayers> casts_, shows_;  // 0: none
+    std::uint64_t list_version_ = 0;           // the scene's at the last update()
+};
+
+}  // namespace gnomon::shadow
