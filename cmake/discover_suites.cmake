@@ -1,7 +1,7 @@
 # Lists an executable's GoogleTest suites and writes them as ctest's tests: one process per suite, not one per test, since
 # starting a process, and a GL context in it, takes longer than most tests.
-# cmake -DEXECUTABLE= -DLABEL= -DTIMEOUT= -DRESULTS= -DENVIRONMENT= -DLONG= -DOUT= -P discover_suites.cmake
-# ENVIRONMENT, a variable, is set for all of them; empty: none is. LONG names the file of suites that have the label `long`, too.
+# cmake -DEXECUTABLE= -DLABEL= -DTIMEOUT= -DRESULTS= -DLONG= -DOUT= -P discover_suites.cmake
+# LONG names the file of suites that have the label `long`, too.
 # Each process leaves GoogleTest's own results, test by test, in RESULTS; .ci/summary.py reads them.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${EXECUTABLE} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE code)
@@ -16,10 +16,6 @@ if(NOT suites)
 endif()
 file(STRINGS ${LONG} long_suites REGEX "^[^#]")
 list(TRANSFORM long_suites REPLACE "[ #].*" "")
-set(variable "")
-if(ENVIRONMENT)
-  set(variable ";${ENVIRONMENT}")
-endif()
 set(tests "")
 foreach(line IN LISTS suites)
   string(REGEX REPLACE "^\n?([A-Za-z0-9_/]+)\\..*" "\\1" suite "${line}")
@@ -31,6 +27,6 @@ foreach(line IN LISTS suites)
   string(APPEND tests
     "add_test([=[${test}]=] [=[${EXECUTABLE}]=] \"--gtest_filter=${suite}.*\")\n"
     "set_tests_properties([=[${test}]=] PROPERTIES LABELS \"${labels}\" TIMEOUT ${TIMEOUT}\n"
-    "  ENVIRONMENT [=[GTEST_OUTPUT=xml:${RESULTS}/${test}.xml${variable}]=])\n")
+    "  ENVIRONMENT [=[GTEST_OUTPUT=xml:${RESULTS}/${test}.xml]=])\n")
 endforeach()
 file(WRITE ${OUT} "${tests}")

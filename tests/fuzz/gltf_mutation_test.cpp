@@ -10,15 +10,12 @@
 
 #include "gnomon/assets.h"
 #include "tests/fuzz/gltf_mutator.h"
+#include "tests/long_run.h"
 
 namespace gnomon::test {
 namespace {
 
-#ifdef GNOMON_SANITIZED
-constexpr int kExecutions = 3'000;  // fuzz_gltf_structure runs the same mutator under sanitizers for a minute
-#else
-constexpr int kExecutions = 20'000;
-#endif
+constexpr int kExecutions = kSanitized ? 1'000 : 20'000;  // under sanitizers fuzz_gltf_structure runs the same mutator
 constexpr std::size_t kMostChoices = 40;
 
 std::vector<std::uint8_t> random_choices(std::mt19937_64& random) {

@@ -4,5 +4,5 @@ if(GNOMON_SAMPLE)
     lookup_gl_test.cpp
     lookup_hardware_gl_test.cpp
     shared_layers_gl_test.cpp
-    LIBRARIES gnomon_sample gnomon_oracle PkgConfig::EPOXY RUNS_PROGRAMS_ONCE)
+    LIBRARIES gnomon_sample gnomon_oracle PkgConfig::EPOXY)
 endif()

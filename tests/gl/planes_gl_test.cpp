@@ -5,7 +5,6 @@
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/frame_fixture.h"
-#include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 
 // A plane never shadows itself, whatever light shines on it, through whichever filter and depth format.
@@ -14,12 +13,9 @@ namespace {
 
 constexpr double kHalf_m = 5.0, kDistance_m = 8.0;
 constexpr float kNear_m = 0.02f;  // so near that a fixed-point depth is worth a decimetre where the plane is
-constexpr int kLongRunRounds = 2;
-constexpr std::size_t kManyPixels = 800;  // in a round
+constexpr int kRounds = 2;
+constexpr std::size_t kManyPixels = 800;
 constexpr float kLit = 1.0f - 1e-6f;  // a sampler's weights sum up to 1 but for rounding
-
-/// One round of a short run has every filter and format; stability_random_planes has each on 20 000 planes.
-int rounds() { return is_long_run() ? kLongRunRounds : 1; }
 
 class Planes : public FrameTest, public ::testing::WithParamInterface<LightKind> {
 protected:
@@ -72,29 +68,26 @@ protected:
     std::vector<ecs::Entity> lights_;
 };
 
+// One plane; stability_random_planes looks through each filter and format at 20 000.
 TEST_P(Planes, AreLitThroughEveryFilterAndFormat) {
     std::mt19937_64 random(print_seed());
-    std::size_t lit_of_all = 0, dark_without_bias = 0;
-    for (int round = 0; round < rounds(); ++round) {
-        lights_.clear();
-        start_anew();
-        add_scene(random);
-        lit_of_all += expect_lit(round);
-        for (const ecs::Entity light : lights_)
-            edit_light(world, light, [](ShadowTuning& t) { t.bias.mode = BiasMode::constant; });
-        draw();
-        for (std::uint32_t i = 0; i < lights_.size(); ++i) dark_without_bias += lit_and_dark(i).second;
-    }
-    const std::size_t many = kManyPixels * static_cast<std::size_t>(rounds());
-    EXPECT_GT(lit_of_all, many * lights_.size());
-    EXPECT_GT(dark_without_bias, many) << "without a bias nothing is amiss: the test sees nothing";
+    std::size_t dark_without_bias = 0;
+    start_anew();
+    add_scene(random);
+    const std::size_t lit_of_all = expect_lit(0);
+    for (const ecs::Entity light : lights_)
+        edit_light(world, light, [](ShadowTuning& t) { t.bias.mode = BiasMode::constant; });
+    draw();
+    for (std::uint32_t i = 0; i < lights_.size(); ++i) dark_without_bias += lit_and_dark(i).second;
+    EXPECT_GT(lit_of_all, kManyPixels * lights_.size());
+    EXPECT_GT(dark_without_bias, kManyPixels) << "without a bias nothing is amiss: the test sees nothing";
 }
 
 // Beside a cube's seams a steep plane's normal leads away along the face's axis: the receiver that the bias moves gets
 // farther, and its taps wider than where it came from.
 TEST_P(Planes, AreLitWhereTheBiasTakesTheReceiverFartherAway) {
     std::mt19937_64 random(3);
-    for (int round = 0; round < kLongRunRounds; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
         lights_.clear();
         start_anew();
         add_scene(random, std::span(shadow::kDepthFormats).first(1));

@@ -7,5 +7,5 @@ gnomon_tests(NAME gl_shaders LABEL gl SOURCES
   LIBRARIES PkgConfig::EPOXY)
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_rows LABEL gl SOURCES every_pair_of_rows_gl_test.cpp light_passes_gl_test.cpp
-    LIBRARIES gnomon_bench_parts RUNS_PROGRAMS_ONCE)
+    LIBRARIES gnomon_bench_parts)
 endif()

@@ -11,8 +11,6 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Share of the distance of a caster behind which the next one is searched.
-constexpr double kLeftBehind = 1.0e-9;
 
 // One light over one picture.
 struct LightTracer {
@@ -57,6 +55,22 @@ struct LightTracer {
         if (with_ambiguous && truth.scored[pixel]) truth.ambiguous[pixel] = flips(pixel, truth.visibility[pixel], hint);
     }
 };
+
+// From `least_m` before a point to the light's middle, at t_max; 0: the light is not as far away.
+struct WayToLight {
+    ExactRay ray;
+    double t_max = 0.0;
+};
+
+WayToLight way_to_light(const LightItem& light, const glm::dvec3& origin_ws_m, const glm::dvec3& point_rel_m,
+                        double least_m) {
+    const bool parallel = light.kind == LightKind::directional;
+    const glm::dvec3 to_light = parallel ? light.rotation_ws[2] : light.position_ws_m - origin_ws_m - point_rel_m;
+    const double distance_m = glm::length(to_light);
+    if (!(parallel || distance_m > least_m)) return {};
+    const glm::dvec3 start = point_rel_m + to_light * (least_m / distance_m);
+    return {make_ray(start, parallel ? to_light : to_light * (1.0 - least_m / distance_m)), parallel ? kInfinity : 1.0};
+}
 
 }  // namespace
 
@@ -132,34 +146,16 @@ bool ReferenceTracer::sees_plane(const ConsumerItem& consumer, const glm::dvec2&
 
 std::uint32_t ReferenceTracer::blocker(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
                                        double least_m) const {
-    const bool parallel = light.kind == LightKind::directional;
-    const glm::dvec3 to_light =
-        parallel ? light.rotation_ws[2] : light.position_ws_m - world_->traced.origin_ws_m() - point_rel_m;
-    const double distance_m = glm::length(to_light);
-    if (!(parallel || distance_m > least_m)) return kNoTriangle;
-    const glm::dvec3 start = point_rel_m + to_light * (least_m / distance_m);
-    const glm::dvec3 rest = parallel ? to_light : to_light * (1.0 - least_m / distance_m);
-    return world_->traced.occluder(make_ray(start, rest), parallel ? kInfinity : 1.0, triangle, kNoTriangle,
-                                   light.shadow.layers);
+    const WayToLight way = way_to_light(light, world_->traced.origin_ws_m(), point_rel_m, least_m);
+    if (way.t_max == 0.0) return kNoTriangle;
+    return world_->traced.occluder(way.ray, way.t_max, triangle, kNoTriangle, light.shadow.layers);
 }
 
 std::uint32_t ReferenceTracer::nearest_to_light(const glm::dvec3& point_rel_m, std::uint32_t triangle,
                                                 const LightItem& light, double least_m) const {
-    std::uint32_t nearest = kNoTriangle;
-    // Each caster found is left behind, and the next one searched from its plane.
-    for (std::uint32_t found = blocker(point_rel_m, triangle, light, least_m); found != kNoTriangle;
-         found = blocker(point_rel_m, found, light, least_m)) {
-        const WorldTriangle& t = world_->traced.triangles()[found];
-        const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
-        const glm::dvec3 ray = light.kind == LightKind::directional
-                                   ? light.rotation_ws[2]
-                                   : glm::normalize(light.position_ws_m - world_->traced.origin_ws_m() - point_rel_m);
-        const double there_m = glm::dot(t.a - point_rel_m, normal) / glm::dot(ray, normal);
-        nearest = found;
-        if (!(there_m * (1.0 + kLeftBehind) > least_m)) break;
-        least_m = there_m * (1.0 + kLeftBehind);
-    }
-    return nearest;
+    const WayToLight way = way_to_light(light, world_->traced.origin_ws_m(), point_rel_m, least_m);
+    if (way.t_max == 0.0) return kNoTriangle;
+    return world_->traced.farthest_occluder(way.ray, way.t_max, triangle, light.shadow.layers);
 }
 
 bool ReferenceTracer::faces(std::uint32_t triangle, const LightItem& light) const {

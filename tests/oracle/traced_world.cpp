@@ -37,6 +37,7 @@ struct Query {
     double t_min = 0.0, t_max = kInfinity;
     ShadowLayers layers = 0;
     std::uint32_t start_triangle = kNoTriangle;
+    bool farthest = false;  // take the occluder of the largest t, not any
     SurfaceHit best;
 };
 
@@ -156,7 +157,7 @@ bool TracedWorld::on_plane(const glm::dvec3& point, std::uint32_t triangle) cons
 }
 
 bool TracedWorld::blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
-                         std::uint32_t triangle) const {
+                         std::uint32_t triangle, double& t_hit) const {
     const WorldTriangle& t = triangles_[triangle];
     ExactHit hit;
     if (triangle == start_triangle || (t.cast_layers & layers) == 0 || !intersect(ray, t.a, t.b, t.c, hit))
@@ -165,6 +166,7 @@ bool TracedWorld::blocks(const ExactRay& ray, double t_max, ShadowLayers layers,
     const glm::dvec3 end = ray.origin + t_max * ray.direction;
     const bool ends_on_plane = is_finite(end) && on_plane(end, triangle);
     const bool between = ends_on_plane ? glm::dot(front_normal(t), ray.origin - t.a) < 0.0 : hit.t < t_max;
+    t_hit = hit.t;
     return between && is_there(t, hit);
 }
 
@@ -189,10 +191,22 @@ SurfaceHit TracedWorld::nearest_surface(const ExactRay& ray, double t_min, doubl
 
 std::uint32_t TracedWorld::occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint,
                                     ShadowLayers layers) const {
-    if (hint != kNoTriangle && blocks(ray, t_max, layers, start_triangle, hint)) return hint;
+    double t = 0.0;
+    if (hint != kNoTriangle && blocks(ray, t_max, layers, start_triangle, hint, t)) return hint;
     Query query = make_query(ray, 0.0, t_max);
     query.layers = layers;
     query.start_triangle = start_triangle;
+    RTCRay r = to_embree(ray, t_max);
+    occlude(scene_, query.context, r);
+    return query.best.triangle;
+}
+
+std::uint32_t TracedWorld::farthest_occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle,
+                                             ShadowLayers layers) const {
+    Query query = make_query(ray, 0.0, t_max);
+    query.layers = layers;
+    query.start_triangle = start_triangle;
+    query.farthest = true;
     RTCRay r = to_embree(ray, t_max);
     occlude(scene_, query.context, r);
     return query.best.triangle;
@@ -230,8 +244,17 @@ void TracedWorld::occluded_callback(const RTCOccludedFunctionNArguments* args) {
     if (!args->valid[0]) return;
     const auto& world = *static_cast<const TracedWorld*>(args->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(args->context);
-    if (!world.blocks(*query.ray, query.t_max, query.layers, query.start_triangle, args->primID)) return;
-    query.best = {args->primID, 0.0};
+    double t = 0.0;
+    if (!world.blocks(*query.ray, query.t_max, query.layers, query.start_triangle, args->primID, t)) return;
+    if (query.farthest) {
+        // Leaves the ray as long as it is: Embree then offers every triangle along it.
+        const SurfaceHit& best = query.best;
+        const bool farther =
+            best.triangle == kNoTriangle || t > best.t || (t >= best.t && args->primID < best.triangle);
+        if (farther) query.best = {args->primID, t};
+        return;
+    }
+    query.best = {args->primID, t};
     RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
 }
 

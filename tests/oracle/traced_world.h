@@ -49,12 +49,16 @@ public:
     std::uint32_t occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint,
                            ShadowLayers layers = kAllShadowLayers) const;
 
+    /// Returns the caster among them that the ray meets last; of equal t the lowest triangle number.
+    std::uint32_t farthest_occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle,
+                                    ShadowLayers layers) const;
+
     /// Up to the rounding of double.
     bool on_plane(const glm::dvec3& point, std::uint32_t triangle) const;
 
     /// The tests that decide, for one triangle.
     bool blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
-                std::uint32_t triangle) const;
+                std::uint32_t triangle, double& t) const;
     bool shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t) const;
 
 private:

@@ -13,6 +13,7 @@
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/fitting/directional/split_transition.h"
 #include "systems/shadow/request/decide_requests.h"
+#include "tests/long_run.h"
 #include "tests/oracle/fit_stages.h"
 
 /// A sun's fits along the whole paths of the flicker bench, built-in scene, without a GPU: when views step, and how
@@ -23,13 +24,8 @@ namespace {
 using shadow::ShadowView;
 
 constexpr int kFrames = 300;
-#ifdef GNOMON_SANITIZED
-constexpr int kPlayed = 40;  // the beginning of each path runs all of the code
-constexpr std::size_t kPoints = 500;
-#else
-constexpr int kPlayed = kFrames;
-constexpr std::size_t kPoints = 4000;
-#endif
+constexpr int kPlayed = kSanitized ? 40 : kFrames;  // the beginning of each path runs all of the code
+constexpr std::size_t kPoints = kSanitized ? 500 : 4000;
 constexpr std::size_t kLayers = shadow::kMaxViews;
 /// The shader's share is a float.
 constexpr double kRounding = 1e-6;

@@ -307,8 +307,9 @@ private:
         const oracle::ExactRay exact = oracle::make_ray(from, glm::dvec3(ray.way));
         const bool fast = traced_.occluder(exact, 1.0, oracle::kNoTriangle, oracle::kNoTriangle) != oracle::kNoTriangle;
         bool slow = false;
-        for (std::uint32_t t = 0; t < traced_.triangles().size() && !slow; ++t)
-            slow = traced_.blocks(exact, 1.0, kAllShadowLayers, oracle::kNoTriangle, t);
+        double t = 0.0;
+        for (std::uint32_t i = 0; i < traced_.triangles().size() && !slow; ++i)
+            slow = traced_.blocks(exact, 1.0, kAllShadowLayers, oracle::kNoTriangle, i, t);
         if (fast != slow) note(verdict_.audit_wrong, "Embree and all triangles disagree at " + words(ray.from));
     }
 

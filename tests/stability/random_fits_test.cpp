@@ -25,11 +25,7 @@ using oracle::Real;
 using oracle::Vector;
 
 std::uint64_t fit_count() {
-#ifdef GNOMON_SANITIZED
-    constexpr std::uint64_t kShort = 2000;
-#else
-    constexpr std::uint64_t kShort = 20000;
-#endif
+    constexpr std::uint64_t kShort = kSanitized ? 2000 : 20000;
     if (const char* count = std::getenv("GNOMON_FITS")) return std::strtoull(count, nullptr, 10);
     return is_long_run() ? 100000 : kShort;
 }

@@ -17,12 +17,8 @@ namespace gnomon {
 namespace {
 
 std::uint64_t plane_count() {
-#ifdef GNOMON_SANITIZED
     // Nine tenths of a disk's offset, which is looser than need be, fail for one plane of a thousand.
-    constexpr std::uint64_t kShort = 10000, kLong = kShort;
-#else
-    constexpr std::uint64_t kShort = 20000, kLong = 50000;
-#endif
+    constexpr std::uint64_t kShort = kSanitized ? 10000 : 20000, kLong = kSanitized ? kShort : 50000;
     if (const char* count = std::getenv("GNOMON_PLANES")) return std::strtoull(count, nullptr, 10);
     return is_long_run() ? kLong : kShort;
 }

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <iostream>
 
+#include "tests/long_run.h"
 #include "tests/system/fault_play.h"
 
 /// Fails each device call of set-up and three frames in turn, in each way, once and lastingly.
@@ -16,11 +17,7 @@ struct Scenario {
 
 /// Calls from one that fails to the next. Under sanitizers failures and spans begin at calls of their own, so that each
 /// call fails in some.
-#ifdef GNOMON_SANITIZED
-constexpr std::uint64_t kStride = 5;
-#else
-constexpr std::uint64_t kStride = 1;
-#endif
+constexpr std::uint64_t kStride = kSanitized ? 8 : 1;
 
 std::uint64_t first_call(gl::Failure failure, FaultSpan span) {
     return (static_cast<std::uint64_t>(failure) + static_cast<std::uint64_t>(span)) % kStride;

@@ -15,11 +15,6 @@
 namespace gnomon {
 namespace {
 
-#ifdef GNOMON_SANITIZED
-constexpr bool kSanitized = true;  // keeps freed memory, and is slow
-#else
-constexpr bool kSanitized = false;
-#endif
 constexpr int kLongRunFrames = kSanitized ? 5000 : 100000;
 constexpr int kShortRunFrames = 10000;
 constexpr int kForgetEvery = 64;

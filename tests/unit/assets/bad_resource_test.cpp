@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "engine/assets/gltf_limits.h"
+#include "tests/long_run.h"
 #include "tests/own_folder.h"
 #include "tests/unit/assets/gltf_builder.h"
 
@@ -16,13 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace limits = assets::gltf;
-
-constexpr bool kUnderAsan =
-#ifdef GNOMON_SANITIZED
-    true;
-#else
-    false;
-#endif
 
 TEST(BadResource, AnImageWithoutASourceIsLeftOutWithAWarning) {
     GltfBuilder builder = triangle();
@@ -74,7 +68,7 @@ TEST(BadResource, AFileThatEndsBeforeItsSizeIsRefused) {
 }
 
 TEST(BadResourceDeathTest, ASceneLargerThanTheMemoryEndsInItsError) {
-    if (kUnderAsan) GTEST_SKIP() << "the sanitizer's allocator ends the process where memory runs out";
+    if (kSanitized) GTEST_SKIP() << "the sanitizer's allocator ends the process where memory runs out";
     GltfBuilder builder = triangle();
     const std::vector<float> zeros(3 * 8'000'000);
     builder.doc["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = builder.add_accessor(zeros, "VEC3");

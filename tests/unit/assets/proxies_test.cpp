@@ -16,6 +16,7 @@
 #include "sample_game/support/built_in_scenes/primitives.h"
 #include "sample_game/support/built_in_scenes/valley/valley.h"
 #include "tests/data/data_files.h"
+#include "tests/long_run.h"
 #include "tests/unit/assets/cube_mesh.h"
 
 namespace gnomon::assets {
@@ -23,14 +24,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Returns the number of samples per surface: more by GNOMON_PROXY_SAMPLES, for a run that takes hours.
-#ifdef GNOMON_SANITIZED
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 constexpr const char* kSlow = "minutes under sanitizers; random surfaces run the same code";
 
+/// Returns the number of samples per surface: more by GNOMON_PROXY_SAMPLES, for a run that takes hours.
 std::size_t samples_wanted() {
     const char* more = std::getenv("GNOMON_PROXY_SAMPLES");
     return more ? std::strtoul(more, nullptr, 10) : 3000;

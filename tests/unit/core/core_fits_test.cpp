@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "tests/long_run.h"
 #include "tests/unit/core/core_scene.h"
 #include "tests/unit/math/random_seed.h"
 
@@ -234,7 +235,7 @@ TEST(CoreLights, OfAnyShapeHoldWhatIsSeen) {
         own.lights[0].outer_cone_rad = frame < 20 ? 1.0f : 1.2f;  // it gets faces, gradually
         own.cameras[0].position_ws_m.z = 14.0 - 0.1 * frame;
         fit_shadows(own.scene(), {}, history, fits);
-        expect_right(own, fits, random, frame);
+        if (!kSanitized || frame % 8 == 0) expect_right(own, fits, random, frame);
         most_layers = std::max(most_layers, fits.lights()[0].layers);
         both += fits.lights()[0].faces_share > 0.0 && fits.lights()[0].faces_share < 1.0 ? 1 : 0;
     }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/rays/exact_triangle.h"
+#include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 #include "tests/unit/rays/triangle_soup.h"
 
@@ -94,11 +95,7 @@ PerLane<double> tried_one_by_one(const Case& scene) {
     return nearest.best;
 }
 
-#ifdef GNOMON_SANITIZED
-constexpr std::uint64_t kSoups = 400;
-#else
-constexpr std::uint64_t kSoups = 1200;
-#endif
+constexpr std::uint64_t kSoups = kSanitized ? 100 : 1200;
 
 TEST(NearestTriangle, IsTheOneThatTryingAllOfThemFinds) {
     std::mt19937_64 random(print_seed());

@@ -165,11 +165,7 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
 /// A size that seems to do, and is found too small when it is tried, is not tried again and again.
 TEST_P(Contract, ComesToRest) {
     // 1072: half of the texels err seven times as much, which asks for twice of what did.
-#ifdef GNOMON_SANITIZED
-    const int scenes = 3;
-#else
-    const int scenes = is_long_run() ? 60 : 12;
-#endif
+    const int scenes = kSanitized ? 1 : is_long_run() ? 60 : 12;
     int tried_in_vain = 0;
     for (const std::uint64_t seed : {print_seed(), std::uint64_t{1072}}) {
         RandomScene random(seed);

@@ -5,6 +5,7 @@
 #include "systems/shadow/culling/view_casters.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/filter_table.h"
+#include "tests/long_run.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// Maps of lights whose source has a size.
@@ -37,13 +38,15 @@ double lamp_reads_texel(const ShadowView& view, const glm::dvec3& p, double radi
     return stretch * radius_m * (1.0 / view.depth.near_m - 1.0 / z_m) / std::min(view.plane.texel_u, view.plane.texel_v);
 }
 
+constexpr int kRounds = kSanitized ? 100 : 300;
+
 /// Receivers that are seen, and points of casters that hide some of the source from them: whether the view that serves
 /// the receiver shows the caster, and at its own depth.
 Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit fit) {
     constexpr double kRadius_m = 1.0, kTan = 0.1, kMap_px = 512.0, kMost_texel = kMap_px / 8.0;
     const bool soft = filter == ShadowFilter::pcss;
     Counts counts;
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
         SceneSnapshot scene = random.scene(kind);
         LightItem& light = scene.lights[0];
         light.shadow.filter = filter;
@@ -97,7 +100,7 @@ TEST(SourceFit, OfASunShowsWhateverHidesSomeOfItAtItsOwnDepth) {
     RandomScene random(print_seed());
     for (const ShadowFit fit : {ShadowFit::tight, ShadowFit::stable, ShadowFit::quantised}) {
         const Counts counts = look(random, LightKind::directional, ShadowFilter::pcss, fit);
-        EXPECT_GT(counts.pairs, 300);
+        EXPECT_GT(counts.pairs, kRounds);
         EXPECT_EQ(counts.outside, 0) << "of " << counts.pairs;
         EXPECT_EQ(counts.flattened, 0) << "of " << counts.pairs;
         EXPECT_EQ(counts.unlisted, 0) << "of " << counts.pairs;
@@ -107,7 +110,7 @@ TEST(SourceFit, OfASunShowsWhateverHidesSomeOfItAtItsOwnDepth) {
 TEST(SourceFit, OfALampShowsWhateverHidesSomeOfIt) {
     RandomScene random(print_seed());
     const Counts counts = look(random, LightKind::spot, ShadowFilter::pcss, ShadowFit::tight);
-    EXPECT_GT(counts.pairs, 100);
+    EXPECT_GT(counts.pairs, kRounds / 3);
     EXPECT_EQ(counts.outside, 0) << "of " << counts.pairs;
     EXPECT_EQ(counts.flattened, 0) << "of " << counts.pairs;
     EXPECT_EQ(counts.unlisted, 0) << "of " << counts.pairs;
@@ -116,7 +119,7 @@ TEST(SourceFit, OfALampShowsWhateverHidesSomeOfIt) {
 TEST(SourceFit, IsLeftOutForFiltersThatDoNotAsk) {
     RandomScene random(print_seed());
     const Counts counts = look(random, LightKind::directional, ShadowFilter::sharp_4x4, ShadowFit::tight);
-    EXPECT_GT(counts.pairs, 300);
+    EXPECT_GT(counts.pairs, kRounds);
     EXPECT_GT(counts.flattened, 0) << "what stands before the depth range is flattened onto it";
     EXPECT_GT(counts.outside, 0);
     // Not every seed has a caster beside a lamp's receiver hull: the same ones in every run.
@@ -124,7 +127,7 @@ TEST(SourceFit, IsLeftOutForFiltersThatDoNotAsk) {
     for (std::uint64_t seed = 1; seed <= 20 && lamp.outside == 0; ++seed) {
         RandomScene fixed(seed);
         lamp = look(fixed, LightKind::spot, ShadowFilter::sharp_4x4, ShadowFit::tight);
-        EXPECT_GT(lamp.pairs, 100);
+        EXPECT_GT(lamp.pairs, kRounds / 3);
     }
     EXPECT_GT(lamp.outside, 0);
 }

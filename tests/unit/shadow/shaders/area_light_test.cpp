@@ -12,6 +12,7 @@
 #include "bench/glsl_on_cpu/glsl_types.h"
 #include "systems/extract/source_place.h"
 #include "systems/lighting/area_table.h"
+#include "tests/long_run.h"
 
 /// Shading by area lights without shadows, against samples of the source and of the surface's lobe.
 namespace gnomon::bench::glsl {
@@ -249,18 +250,14 @@ class AreaLight : public ::testing::TestWithParam<LightKind> {};
 
 // A lobe of one transformed cosine is not that of brdf.glsl: most of what remains are metals at grazing angles.
 TEST_P(AreaLight, ShadesAsSamplesOfItsSourceDo) {
-#ifdef GNOMON_SANITIZED
-    GTEST_SKIP() << "millions of samples take minutes under sanitizers; the tests below run the same text";
-#endif
+    if (kSanitized) GTEST_SKIP() << "millions of samples take minutes; the tests below run the same text";
     const bool thin = GetParam() == LightKind::tube;
     EXPECT_LE(mean_error(all_cases(GetParam(), 0.0)), thin ? 0.013 : 0.01) << "no metal";
     EXPECT_LE(mean_error(all_cases(GetParam(), 1.0)), 0.04) << "metal";
 }
 
 TEST_P(AreaLight, ShadesMetalsSeenFromAboveWithinTwoPercent) {
-#ifdef GNOMON_SANITIZED
-    GTEST_SKIP() << "millions of samples take minutes under sanitizers; the tests below run the same text";
-#endif
+    if (kSanitized) GTEST_SKIP() << "millions of samples take minutes; the tests below run the same text";
     std::vector<Case> cases = all_cases(GetParam(), 1.0);
     std::erase_if(cases, [](const Case& c) { return c.to_viewer.z < 0.8; });
     EXPECT_LE(mean_error(cases), 0.02);

@@ -17,6 +17,7 @@
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/poses.h"
 #include "systems/transform/transform_system.h"
+#include "tests/long_run.h"
 
 namespace gnomon::game {
 namespace {
@@ -141,11 +142,7 @@ TEST(Courtyard, TheGuardWalksUpAndDownWithHisFeetOnTheGround) {
     const math::Aabb start = guard_at(0.0);
     EXPECT_NEAR(start.min.y, 0.0, 1e-6);
     constexpr double kRound_s = 24.0, kLeast_m = 7.0;
-#ifdef GNOMON_SANITIZED
-    constexpr double kStep_s = 1.11;
-#else
-    constexpr double kStep_s = 0.37;
-#endif
+    constexpr double kStep_s = kSanitized ? 1.11 : 0.37;
     double farthest = 0.0;
     for (double time_s = 0.0; time_s < kRound_s; time_s += kStep_s) {
         SCOPED_TRACE(time_s);
