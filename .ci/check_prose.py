@@ -54,6 +54,7 @@ NO_VERB = re.compile(
 
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 ITEM, COMMENT_ITEM = re.compile(r"\s*(?:[-*]|\d+\.) "), re.compile(r"\s*[-*] ")
+MARK = re.compile(r"\[/?\w[^]]*\]$")  # begins or ends what a page quotes
 DIRECTIVE = re.compile(r"(?:namespace|NOLINT|clang-format|IWYU|SPDX|GCC diagnostic)\b|-{3,}|={3,}")
 # Declaration of a function, operator or constructor: type, name, parenthesis, with neither = nor ; before it.
 FUNCTION = re.compile(r"(?!using\b|return\b|struct\b|class\b|enum\b|#)"
@@ -121,12 +122,13 @@ def passages_of(block, first, kind):
     """Splits a comment at list items and empty lines; the first passage alone has the kind given."""
     rows = []
     for number, words in enumerate(block + [""], first):
-        if rows and (not words.strip() or COMMENT_ITEM.match(words)):
+        mark = MARK.match(words.strip())
+        if rows and (not words.strip() or mark or COMMENT_ITEM.match(words)):
             joined = " ".join(words for _, words in rows)
             if not DIRECTIVE.match(joined):
                 yield Passage(rows[0][0], kind, joined)
             rows, kind = [], "comment"
-        if words.strip():
+        if words.strip() and not mark:
             rows.append((number, COMMENT_ITEM.sub("", words).strip()))
 
 

@@ -1,5 +1,5 @@
 // [file]
-// Five nearest taps: the receiver's texel weighs as much as the four beside it.
+// Weighs the five nearest taps: the receiver's texel counts as much as the four beside it.
 vec4 filter_setup(ShadowPoint point) { return vec4(0.0); }
 
 int filter_taps() { return 5; }
