@@ -3,7 +3,7 @@
 
 namespace gnomon {
 
-/// Says whether this run plays every row and all rounds: GNOMON_LONG is set by `./gnomon test --long`, which CI runs.
+/// Returns whether this run plays every row and all rounds. `./gnomon test --long`, which CI runs, sets GNOMON_LONG.
 inline bool is_long_run() { return std::getenv("GNOMON_LONG") != nullptr; }
 
 /// True in a build with sanitizers: it runs ten times as slowly, and a few rounds of the same code show it what many

@@ -3,9 +3,9 @@
 
 namespace gnomon::test {
 
-/// The folder of this source tree.
+/// Returns the folder of this source tree.
 std::filesystem::path source_folder();
-/// The folder of scenes that others made; it may be absent.
+/// Returns the folder of scenes that others made; it may be absent.
 std::filesystem::path data_folder();
 
 }  // namespace gnomon::test

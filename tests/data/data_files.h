@@ -30,8 +30,8 @@ std::vector<std::string> data_files();
 Verdicts recorded_verdicts();
 void record_verdicts(const Verdicts& verdicts);
 
-/// Ends the process, naming the file at work, if one takes longer than 20 s of this process's time, or six times
-/// that by the clock (so that neither a busy machine nor a wait without end goes wrong).
+/// Ends the process, naming the file at work, if one takes longer than 20 s of this process's time. Six times that by
+/// the clock ends it as well. So a busy machine does not end it too soon, and a thread that sleeps for ever does.
 class Watchdog {
 public:
     explicit Watchdog(double most_process_s = 20.0);
@@ -39,7 +39,7 @@ public:
     Watchdog(const Watchdog&) = delete;
     Watchdog& operator=(const Watchdog&) = delete;
 
-    /// From here on the time counts for `file`.
+    /// Starts the time that counts for `file`.
     void watch(const std::string& file);
 
 private:

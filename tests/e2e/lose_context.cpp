@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-// Loaded before the game: asked for the GNOMON_LOSE_AT-th time whether the context still lives, the driver says no.
+// Loaded before the game. At the GNOMON_LOSE_AT-th query whether the context still lives, the driver answers no.
 // The loader of OpenGL's functions keeps them in exported variables; this is one of them.
 namespace {
 

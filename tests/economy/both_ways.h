@@ -11,8 +11,8 @@
 
 namespace gnomon {
 
-/// One world whose shadows are worked out twice in each frame: as usual, and with economy=off, each with maps and a
-/// history of its own, and with lighting of its own. Everything else is common to both.
+/// One world with shadows that are worked out twice in each frame: as usual, and with economy=off. Each way has maps, a
+/// history and lighting of its own. Everything else is common to both.
 class BothWays {
 public:
     enum DepthVariant : std::size_t { kThrifty, kLavish, kWays };

@@ -78,7 +78,7 @@ void ChangingWorld::add_camera() {
     turn_camera(cameras_.back());
 }
 
-/// Mostly a step, sometimes anywhere, to where nothing is as well.
+/// Moves the camera: mostly by a step, sometimes to any place, also to where nothing is.
 void ChangingWorld::turn_camera(ecs::Entity camera) {
     const glm::dvec3 jump_m = place(0.5, 8.0), step_m = 0.01 * place(-1.0, 1.0), target_m = place(-6.0, 6.0);
     const bool jumps = chance(0.3);

@@ -7,16 +7,17 @@
 
 namespace gnomon {
 
-/// A world in which anything may change from one frame to the next, the same way for the same seed: lights, casters and
+/// A world in which anything may change from one frame to the next, the same way for the same seed. Lights, casters and
 /// up to three cameras appear, move, take other settings, turn away, and vanish. Half of the frames change nothing, so
 /// that there is something to save.
 class ChangingWorld {
 public:
-    /// `filters`: what lights choose from; each one costs programs.
+    /// Makes a world with a plane, a camera, some lights and casters. `filters`: what lights choose from; each one
+    /// costs programs.
     ChangingWorld(std::uint64_t seed, std::vector<ShadowFilter> filters);
 
     ecs::Registry& registry() { return world_.registry; }
-    /// To be called before each frame.
+    /// Changes something, or nothing. Call it before each frame.
     void change();
 
     static constexpr std::size_t kMostLights = 5, kMostCasters = 12, kMostCameras = 3;

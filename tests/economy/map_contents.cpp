@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint64_t kCleared = 1;
-constexpr std::uint32_t kLayerBits = 3;  // of a draw item's place
+constexpr std::uint32_t kLayerBits = 3;  // the lowest of a draw item's place
 
 std::uint64_t hash(std::span<const std::byte> bytes, std::uint64_t from) {
     std::uint64_t value = from ^ 14695981039346656037ull;  // FNV-1a
@@ -39,7 +39,7 @@ std::uint64_t drawn(const gl::DrawMeshes& draw, const Bound& bound, std::uint32_
     const auto view = device.buffer_bytes(bound.view.buffer)
                           .subspan(bound.view.offset + layer_in_view * sizeof(shadow::DepthViewRecord),
                                    sizeof(shadow::DepthViewRecord));
-    // The last number of a record says whose shadows the instance receives.
+    // The last number of a record has the shadows that the instance receives: depths do not depend on it.
     const auto instance = device.buffer_bytes(bound.instances.buffer)
                               .subspan(item * sizeof(InstanceRecord), sizeof(InstanceRecord) - sizeof(float));
     const std::string_view label = device.program(bound.pipeline.program)->label;
@@ -85,7 +85,7 @@ void MapContents::draw(const gl::CommandList& list, const gl::RecordingDevice& d
                 std::memcpy(item, items.data() + i * sizeof item, sizeof item);
                 const bool layered = map->layer == gl::kAllLayers;
                 const std::uint32_t layer = layered ? item[1] & ((1u << kLayerBits) - 1u) : 0u;
-                // A sum: of what is drawn, the nearest stays, whoever came first.
+                // A sum does not depend on the order of draws, as depths do not: the nearest stays.
                 layers_[{map->texture.id, layered ? static_cast<std::int32_t>(layer) : map->layer}] +=
                     drawn(draw, bound, item[0], layer, device);
             }

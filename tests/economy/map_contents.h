@@ -7,15 +7,16 @@
 
 namespace gnomon {
 
-/// What depth maps would hold if a recorded list had been drawn: a number per layer that follows from all that its
-/// texels follow from, the matrices, the placement and the triangles of what was drawn since it was cleared, and the
-/// faces that were culled. In whatever order, and in however many passes, things were drawn.
+/// What depth maps would contain if a recorded list had been drawn: a number per layer. It follows from all that the
+/// layer's texels follow from. These are the matrices, placements and triangles of what was drawn since it was cleared,
+/// and the faces that were culled. It does not depend on the order of draws or the number of passes.
 class MapContents {
 public:
-    /// `device` must have been given the list just now: its buffers hold what the list's draws read.
+    /// Follows a list's clears, copies and draws. `device` must have run the list just now: its buffers contain what
+    /// the draws read.
     void draw(const gl::CommandList& list, const gl::RecordingDevice& device);
 
-    /// Of a layer's target; 0: never drawn to.
+    /// Returns the number of a target's layer. 0: never drawn to.
     std::uint64_t of(gl::TargetHandle target, const gl::RecordingDevice& device) const;
 
 private:

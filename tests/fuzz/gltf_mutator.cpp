@@ -59,7 +59,7 @@ void add_living(GltfBuilder& builder) {
                                             channel(0, 0, "scale"), channel(2, 0, "weights")})}});
 }
 
-/// A document that uses every feature of the loader.
+/// Makes a document that uses every feature of the loader.
 GltfBuilder rich_seed() {
     GltfBuilder builder = triangle();
     const std::vector<std::uint8_t> which = {1};
@@ -167,7 +167,7 @@ json odd_value(Choices& choices) {
 
 json small_index(Choices& choices) { return choices.byte() % 8; }
 
-/// Mostly of the type that stands there: a wrong type is refused early and hides what lies behind.
+/// Chooses a new value, mostly of the old one's type: a wrong type is refused early and hides what lies behind.
 json replacement(const json& old, Choices& choices) {
     if (choices.byte() % 16 == 0) return odd_value(choices);
     if (old.is_number_integer() && choices.byte() % 2 == 0) return small_index(choices);
@@ -181,7 +181,7 @@ json replacement(const json& old, Choices& choices) {
     return old;
 }
 
-/// A value somewhere in the document, each step chosen.
+/// Picks a value somewhere in the document, each step chosen.
 json* pick(json& root, Choices& choices) {
     json* at = &root;
     while (at->is_structured() && !at->empty()) {
@@ -271,7 +271,8 @@ void check_deformer(const assets::Mesh& mesh) {
     }
 }
 
-/// Every mesh that bends is placed once and can be bent, at rest and at any time of any animation.
+/// Checks that every mesh that bends is placed once and can be bent at rest, and that any time of any animation can be
+/// sampled.
 void check_living(const assets::SceneData& scene) {
     std::set<std::int32_t> placed;
     std::vector<assets::Vertex> bent;

@@ -8,8 +8,8 @@
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
-/// Whatever a user may put together, with nothing tuned: random things of random sizes around random places, cameras of
-/// either projection with any near and far, lights of each kind with any range and cone.
+/// Worlds that a user may put together, with no setting tuned: random things of random sizes around random places.
+/// Cameras have either projection with any near and far; lights are of each kind with any range and cone.
 namespace gnomon {
 namespace {
 
@@ -19,7 +19,7 @@ protected:
     static double between(double least, double most, Random& random) {
         return std::uniform_real_distribution<double>(least, most)(random);
     }
-    /// As likely of one order of magnitude as of another.
+    /// Draws a size; each order of magnitude is as likely as another.
     static double of_any_size(double least, double most, Random& random) {
         return least * std::pow(most / least, between(0.0, 1.0, random));
     }
@@ -27,7 +27,7 @@ protected:
     static glm::dvec3 anywhere(Random& random) {
         return {between(-1.0, 1.0, random), between(-1.0, 1.0, random), between(-1.0, 1.0, random)};
     }
-    /// From above the ground, or from just over it.
+    /// Draws a vector to a place above the ground or just over it, at a distance of any size.
     static glm::dvec3 from_above(double least_distance, double most_distance, Random& random) {
         const double azimuth = between(0.0, 6.283, random), elevation = between(0.05, 1.57, random);
         return of_any_size(least_distance, most_distance, random) * glm::dvec3(std::cos(elevation) * std::cos(azimuth),
@@ -93,8 +93,8 @@ protected:
     std::string what_;
 };
 
-// Maps of 512 texels, as so small a picture has, leave one pixel in thirty thousand wrong; where a lamp's texel is tens
-// of pixels wide, one in a hundred.
+// So small a picture has maps of 512 texels, which leave one pixel in thirty thousand wrong. Where a lamp's texel is
+// tens of pixels wide, one in a hundred is wrong.
 TEST_F(AnyWorld, IsShadowedRightWithNothingTuned) {
     constexpr int kWorlds = 40;
     constexpr double kMostWrong = 2.5e-4, kMostWrongOfOne = 0.03, kLeastDark = 0.02;

@@ -7,7 +7,7 @@
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"
 
-// The judge judged: what tells truth from error is asked in two ways, and what it sees is what is drawn.
+// The judge judged: two ways to find the truth must agree, and what the judge sees must be what is drawn.
 namespace gnomon {
 namespace {
 
@@ -40,7 +40,7 @@ protected:
         ADD_FAILURE() << to_line(found.error());
         return {};
     }
-    /// The courtyard, drawn, traced as if it were another.
+    /// Draws the courtyard and audits the picture against a snapshot that `change` has altered.
     template <class Change>
     static bench::Audit audit_of_another(const Change& change) {
         bench::StageOptions options;
@@ -55,7 +55,7 @@ protected:
         ADD_FAILURE() << to_line(audit.error());
         return {};
     }
-    /// The caster with the largest bounds.
+    /// Returns the index of the caster with the largest bounds.
     static std::uint32_t largest_caster(const SceneSnapshot& scene) {
         std::uint32_t largest = 0;
         const auto size = [&](std::uint32_t i) {

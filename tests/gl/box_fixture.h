@@ -13,7 +13,7 @@ protected:
         place(add_mesh(game::make_card(card.centre_m, 2.0 * card.half_u_m, 2.0 * card.half_v_m)), {.translation_m = at}, false);
         truth.cards.push_back({card.centre_m + at, card.half_u_m, card.half_v_m});
     }
-    /// The plane y = 0, `half_m` to each side of `at`, facing up.
+    /// Adds the plane y = 0, `half_m` to each side of `at`, facing up.
     void add_ground(double half_m, const glm::dvec3& at = glm::dvec3(0.0)) {
         add_card({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, half_m), glm::dvec3(half_m, 0.0, 0.0)}, at);
     }
@@ -38,7 +38,7 @@ protected:
         }
         return boxes::judge(truth, scene.consumers.front(), scene.lights[light], visibility(light));
     }
-    /// Every claim of the oracle holds, and it claims at least so many pixels of each kind.
+    /// Checks every claim of the oracle, and that it claims at least `least_dark` and `least_lit` pixels.
     void expect_true(std::size_t least_dark, std::size_t least_lit, std::uint32_t light = 0) {
         const boxes::Verdict verdict = judged(light);
         EXPECT_EQ(verdict.wrong, 0u) << verdict.first_wrong;

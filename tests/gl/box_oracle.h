@@ -11,8 +11,8 @@
 #include "engine/math/aabb.h"
 #include "systems/extract/snapshot.h"
 
-/// Closed-form truth about boxes above flat receivers. It shares no formula with the pipeline: rays in world space
-/// against boxes in their own space, with a margin around every edge inside which nothing is claimed.
+/// Closed-form truth about boxes above flat receivers. It shares no formula with the pipeline: rays in world space meet
+/// boxes in their own space. It claims nothing within a margin around every edge.
 namespace gnomon::boxes {
 
 struct Box {
@@ -27,7 +27,7 @@ struct Card {
     glm::dvec3 normal() const { return glm::normalize(glm::cross(half_u_m, half_v_m)); }
 };
 
-/// Whether the way from `a` to `b` passes the box grown by `grow_m` (shrunk if negative) on every side.
+/// Returns whether the segment from `a` to `b` meets the box grown by `grow_m` on every side (negative: shrunk).
 inline bool meets(const Box& box, const glm::dvec3& a, const glm::dvec3& b, double grow_m) {
     const glm::dmat3 inverse = glm::inverse(box.basis);
     const glm::dvec3 from = inverse * (a - box.translation_m), way = inverse * (b - a);
@@ -69,7 +69,7 @@ struct Scene {
     bool boxes_hide = true;    // false: the camera looks at the boxes' culled insides only
 };
 
-/// What a light must do at a point of a card.
+/// Returns what a light must do at a point of a card.
 inline Claim claim_at(const Scene& scene, const Card& card, const glm::dvec3& p, const LightItem& light) {
     const double margin = scene.margin_m;
     glm::dvec3 source = light.position_ws_m;
@@ -95,7 +95,7 @@ inline Claim claim_at(const Scene& scene, const Card& card, const glm::dvec3& p,
     return near_edge ? Claim::none : Claim::lit;
 }
 
-/// What the picture must hold at a pixel.
+/// Returns what the picture must show at a pixel.
 inline Claim claim_of_pixel(const Scene& scene, const ConsumerItem& camera, const LightItem& light, std::uint32_t x,
                             std::uint32_t y) {
     const Ray ray = pixel_ray(camera, x, y);
@@ -128,7 +128,7 @@ struct Verdict {
 
 constexpr float kExact = 1.0e-5f;  // nine equal weights do not add up to one
 
-/// `measured` as of --visibility, rows bottom to top.
+/// Counts the claims, and the pixels that contradict one. `measured`: as of --visibility, rows bottom to top.
 inline Verdict judge(const Scene& scene, const ConsumerItem& camera, const LightItem& light,
                      std::span<const float> measured, float tolerance = kExact) {
     Verdict verdict;

@@ -5,7 +5,7 @@
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/oracle/edge_exceptions.h"
 
-/// Pictures within a budget against rays: what the report says of each light holds, whatever the budget left it.
+/// Pictures within a budget against rays: the report on each light is true, whatever the budget left it.
 namespace gnomon {
 namespace {
 
@@ -35,15 +35,15 @@ protected:
     struct Seen {
         std::size_t kept = 0, broken = 0, held = 0, unsettled = 0;
         std::size_t places = 0, kept_places = 0;
-        oracle::EdgeExceptions said, wish;  // beyond what the report predicts, and beyond the wish it says is kept
-        std::size_t found_out = 0;          // places beyond a tenth of what it predicts
+        oracle::EdgeExceptions said, wish;  // places beyond the predicted error; beyond a target reported as met
+        std::size_t found_out = 0;          // places beyond a tenth of the predicted error
         void add(const oracle::EdgeExceptions& more, oracle::EdgeExceptions& sum) {
             sum.sub_texel_caster += more.sub_texel_caster;
             sum.truth_ambiguous += more.truth_ambiguous;
             sum.unexplained += more.unexplained;
         }
     };
-    /// Every edge of every light that has a map, in this frame, by the bounds of the maps that it was granted.
+    /// Judges every edge of every light that has a map, in this frame, by the bounds of the maps that it was granted.
     void look(Seen& seen) {
         const SceneSnapshot& scene = frame().snapshot();
         const ConsumerItem& camera = scene.consumers.at(0);
@@ -68,7 +68,7 @@ protected:
                                                    return bounds.within(i, point, normal, error_px, wished);
                                                });
             };
-            constexpr double kPart = 0.1;  // a bound that is never near what is measured holds anything
+            constexpr double kPart = 0.1;  // control: a bound far from what is measured would pass anything
             seen.add(beyond(light.predicted_error_px - picture_px, 1.0), seen.said);
             seen.found_out += beyond(light.predicted_error_px - picture_px, kPart).unexplained;
             if (light.keeps_max_error) seen.add(beyond(static_cast<double>(kWish_px), 1.0), seen.wish);

@@ -92,8 +92,8 @@ protected:
     }
 };
 
-/// A cascade without a caster is said to be lit; with one whose shadow falls where nobody looks, it is drawn and looked
-/// up.
+/// Compares two pictures. A cascade without a caster is taken as lit. With a caster that shadows only places out of
+/// sight, it is drawn and looked up.
 TEST_P(LitCascades, ShowToTheBitWhatEmptyMapsWouldShow) {
     for (const float blend : {0.0f, 0.3f}) {
         start_anew();
@@ -103,7 +103,7 @@ TEST_P(LitCascades, ShowToTheBitWhatEmptyMapsWouldShow) {
         add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, along,
                   {.filter = GetParam(), .resolution_px = 512, .cascades = 4}, {.cascades = {.blend = blend}});
         add_camera({.fov_y_rad = 0.9f, .near_m = 0.1}, {0.3, 2.2, 3.0}, {0.0, -0.35, -1.0});
-        // To both sides of what is seen, high above the ground that the farther maps hold.
+        // Casters to both sides of what is seen, high above the ground that the farther maps contain.
         std::vector<ecs::Entity> high;
         const std::uint32_t mesh = add_mesh(game::make_box(glm::dvec3(-0.3), glm::dvec3(0.3)));
         for (const double distance_m : {8.0, 12.0, 16.0, 22.0, 30.0})

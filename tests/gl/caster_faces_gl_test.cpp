@@ -1,7 +1,7 @@
 #include "tests/gl/traced_frame_fixture.h"
 
-/// Which faces of a caster are in the map. An unseen box hides a card: light that reaches the card has passed the box's
-/// near side, so that only its far side can be in the map. The ground below is dark either way.
+/// Tests which faces of a caster are in the map. An unseen box hides a card. Light that reaches the card has passed the
+/// box's near side, so that only its far side can be in the map. The ground below is dark either way.
 namespace gnomon {
 namespace {
 
@@ -21,14 +21,14 @@ protected:
                     .far_m = 30.0},
                    {0.0, 20.0, 0.0}, {0.0, -1.0, 0.0});
     }
-    /// A box of 2 m around the card, unseen.
+    /// Places an unseen box around the card, 2 m wide times `scale`.
     ecs::Entity hide_card_in(std::uint32_t mesh, const glm::dvec3& scale = glm::dvec3(1.0)) {
         const ecs::Entity e = place(mesh, {.translation_m = {0.0, kCardHeight_m, 0.0}, .scale = scale});
         world.patch<MeshRef>(e, [](MeshRef& m) { m.visible = false; });
         return e;
     }
     std::uint32_t closed_box() { return add_analysed(game::make_box(glm::dvec3(-1.0), glm::dvec3(1.0))); }
-    /// The same without its top.
+    /// Adds the mesh of closed_box() without its top.
     std::uint32_t open_box() {
         game::Shape shape = game::make_box(glm::dvec3(-1.0), glm::dvec3(1.0));
         std::vector<std::uint32_t> kept;
@@ -43,7 +43,7 @@ protected:
         world.patch<LightShadow>(lamp, [&](LightShadow& s) { s.caster_faces = faces; });
         draw();
     }
-    /// Light at a place on what the camera sees there.
+    /// Returns the visibility at a place, on the surface that the camera sees there.
     float light_at(double x_m) {
         const glm::uvec2 size = settings.viewport_px;
         const double pixel_m = 2.0 * kHalfHeight_m / size.y;

@@ -6,7 +6,8 @@
 #include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
-// The C++ and the GLSL views of casters and instances, which are read as texels: no interface of a program tells those.
+// The C++ and the GLSL views of casters and instances agree. They are read as texels, which no interface of a program
+// describes.
 namespace gnomon {
 namespace {
 

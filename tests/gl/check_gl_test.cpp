@@ -11,7 +11,7 @@ namespace {
 
 constexpr glm::uvec2 kPicture_px{96, 54};
 
-/// The rows of one filter, a way of drawing a cube each, judged without times.
+/// Judges the rows of one filter, each with its way of drawing a cube, without times.
 std::vector<bench::CheckRow> rows_of(bench::Stage& stage, const bench::TracedTruths& truths, ShadowFilter filter,
                                      const bench::RowCheckOptions& options = {{}, 0}) {
     std::vector<bench::CheckRow> rows;

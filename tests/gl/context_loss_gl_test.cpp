@@ -10,8 +10,8 @@
 #include "tests/system/fault_scenes.h"
 #include "tests/unit/math/random_seed.h"
 
-// The device's memory is never the only place where anything lives: after the context is gone, a new one shows the
-// same pictures from the same world.
+// Nothing lives in the device's memory alone: after the context is gone, a new one shows the same pictures from the
+// same world.
 namespace gnomon {
 namespace {
 
@@ -37,7 +37,7 @@ struct Gpu {
         gpu.frame = std::move(frame).value();
         return gpu;
     }
-    /// The context goes first, under the feet of all that live in it.
+    /// Destroys the context first, before the objects that live in it.
     void lose() {
         context.reset();
         frame.reset();
@@ -45,7 +45,7 @@ struct Gpu {
     }
 };
 
-/// The pictures of `kFrames` frames of a world in motion; the context is destroyed before frame `lost_before`.
+/// Draws `kFrames` pictures of a world in motion; the context is destroyed before frame `lost_before`.
 std::vector<Picture> film(const FaultScene& scene, int lost_before) {
     std::optional<Gpu> gpu = Gpu::make(*scene.library);
     std::vector<Picture> pictures;
@@ -67,7 +67,7 @@ std::vector<Picture> film(const FaultScene& scene, int lost_before) {
     return pictures;
 }
 
-/// A world that changes at random, the same way for the same seed. Plays once.
+/// Makes a world that changes at random, the same way for the same seed. Plays once.
 FaultScene random_scene(std::uint64_t seed) {
     const auto world = std::make_shared<SoakWorld>(seed);
     constexpr int kSettling = 100;  // until there are lights and casters
@@ -84,7 +84,7 @@ void expect_unbroken(const std::function<FaultScene()>& scene) {
     ASSERT_EQ(unbroken.size(), static_cast<std::size_t>(kFrames));
     ASSERT_EQ(broken.size(), unbroken.size());
     for (std::size_t i = 0; i < unbroken.size(); ++i) EXPECT_EQ(broken[i], unbroken[i]) << "frame " << i;
-    // Pictures change, of the old context and of the new one, so that equal ones say something.
+    // Control: pictures of the old context and of the new one change.
     const auto changes = [&](int from, int to) {
         int found = 0;
         for (int i = from; i < to; ++i)

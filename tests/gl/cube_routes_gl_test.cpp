@@ -30,7 +30,7 @@ protected:
                       {.filter = ShadowFilter::pcf_grid, .resolution_px = kMap_px},
                       {.maps = {.cube_route = route}, .reuse = {.economy = false}});
     }
-    /// Of each light, in order: what the light passes bind.
+    /// Returns the maps that the light passes bind, in the order of the lights.
     std::vector<gl::TextureHandle> maps() {
         constexpr std::uint32_t kMapUnit = 4;
         std::vector<gl::TextureHandle> found;

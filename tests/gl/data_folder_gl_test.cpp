@@ -1,5 +1,5 @@
-// Every file of the test data as a small picture: finite, and what it shows is recorded, so that a file that silently
-// shows nothing stands out.
+// Draws every file of the test data as a small picture. All its values are finite. What it shows is recorded, so that a
+// file that silently shows nothing stands out.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -40,7 +40,8 @@ bool is_finite_half(std::uint16_t half) { return (half & 0x7C00U) != 0x7C00U; }
 
 class DataFolderPicture : public GlTest {
 protected:
-    /// The picture's verdict; fails the test if the picture is not what a picture must be.
+    /// Draws a scene and returns the verdict on its picture, or an error's rule. Fails the test if the picture is
+    /// invalid.
     std::string verdict_of(assets::SceneData scene, const std::string& name) {
         ecs::Registry world;
         assets::MeshLibrary library;

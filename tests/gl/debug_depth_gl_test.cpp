@@ -24,7 +24,7 @@ protected:
         FrameTest::SetUp();
         add_camera({.fov_y_rad = 1.2}, {0.0, 3.0, 9.0}, {0.0, -0.3, -1.0});
     }
-    /// A wall of `half_m` around `at`, facing `toward`, which casts and receives.
+    /// Adds a wall around `at`, `half_m` to each side along x and y, that casts and receives.
     void add_wall(const glm::dvec3& at, double half_m) {
         place(add_mesh(
             game::make_box(at - half_m * glm::dvec3(1.0, 1.0, 0.01), at + half_m * glm::dvec3(1.0, 1.0, 0.01))));
@@ -34,12 +34,12 @@ protected:
         draw();
         rgba_ = picture();
     }
-    /// x and y from the lower left, as GL has it.
+    /// Returns a pixel's colour; x and y count from the lower left, as in GL.
     Colour at(std::int32_t x, std::int32_t y) const {
         const std::size_t i = 4 * ((kHeight - 1 - static_cast<std::size_t>(y)) * kWidth + static_cast<std::size_t>(x));
         return {rgba_[i], rgba_[i + 1], rgba_[i + 2]};
     }
-    /// The range that the view names in its label `index`.
+    /// Returns the range that label `index` of the view names, metres: near and far.
     std::pair<double, double> range(std::size_t index) {
         double near_m = -1.0, far_m = -1.0;
         const std::string& text = frame().debug_labels().at(index).text;

@@ -16,7 +16,7 @@ protected:
         add_camera({.fov_y_rad = 0.9, .near_m = 0.1}, {2.0, 2.2, 1.0}, {-0.35, -0.3, -1.0});
     }
     std::string light_name() { return frame().snapshot().lights.front().name; }
-    /// Whether a pixel within one of `place` has the colour of `label` over the picture.
+    /// Returns whether a pixel within one of `place` has the colour of `label` over the picture.
     bool has(const glm::dvec2& place, const debug::Label& label, double share) {
         const glm::ivec2 middle(place);
         for (int y = middle.y - 1; y <= middle.y + 1; ++y)

@@ -27,14 +27,15 @@ protected:
         add_ground(40.0);
     }
     void add_post() { add_box({-0.3, 0.0, -4.3}, {0.3, 1.5, -3.7}); }
-    /// One for each of a sun's cascades.
+    /// Adds one post for each of a sun's cascades.
     void add_posts() {
         for (const double z : {0.5, -4.0, -9.0, -18.0, -32.0}) add_box({-0.6, 0.0, z - 0.3}, {-0.2, 1.2, z + 0.3});
     }
     void look_along() { add_camera({.fov_y_rad = 0.9, .near_m = 0.1}, {0.3, 2.2, 3.0}, {0.0, -0.35, -1.0}); }
     std::string light_name() { return frame().snapshot().lights.front().name; }
 
-    /// Calls `check` for every pixel of the ground with the place that it sees, away from what `skip` says of it.
+    /// Calls `check` for every pixel of the ground, except its rim, with the place that it sees. Returns how often that
+    /// returned true.
     std::size_t for_ground(const std::function<bool(std::uint32_t, std::uint32_t, const glm::dvec3&)>& check) {
         std::size_t checked = 0;
         for (std::uint32_t y = 0; y < size_px().y; ++y)
@@ -45,7 +46,7 @@ protected:
             }
         return checked;
     }
-    /// "…, from 1.5 m to 3 m, …", in metres.
+    /// Reads the length after `words`, metres, as in "…, from 1.5 m to 3 m, …". Returns -1 if there is none.
     static double length_after(const std::string& text, const std::string& words) {
         double value = -1.0;
         char unit[8] = {};
@@ -54,7 +55,7 @@ protected:
             return -1.0;
         return std::string(unit) == "mm" ? value * 1e-3 : std::string(unit) == "km" ? value * 1e3 : value;
     }
-    /// The colour of a length on the scale that the labels show: between two by its logarithm, in linear light.
+    /// Returns the colour of a length on the scale that the labels show: between two by its logarithm, in linear light.
     glm::dvec3 on_scale(double length_m) {
         std::vector<std::pair<double, glm::dvec3>> stops;
         for (const debug::Label& label : labels())
@@ -181,8 +182,8 @@ TEST_F(DebugLookups, TheGridIsAsWideAsTheTexelsThatTheLabelNames) {
     const double texel_m = diagonal_m / std::sqrt(2.0);
     const double pixel_m = 12.0 / size_px().y;
     ASSERT_GT(texel_m, 4.0 * pixel_m) << "too fine to be drawn";
-    // Brightness changes once per texel: along a row that crosses all columns of the grid at its own angle it cannot be
-    // counted simply, so that the share of either kind and the number of changes along u and v are.
+    // Brightness changes at every side of a texel. Rows cross the grid at its own angle, so that only their mean number
+    // of changes per texel is bounded.
     std::size_t changes = 0, pixels = 0;
     for (std::uint32_t y = 20; y < size_px().y - 20; ++y)
         for (std::uint32_t x = 21; x < size_px().x - 20; ++x) {
@@ -190,8 +191,8 @@ TEST_F(DebugLookups, TheGridIsAsWideAsTheTexelsThatTheLabelNames) {
             changes += std::abs(step) > 20 ? 1 : 0;
             ++pixels;
         }
-    // A line that crosses a grid at the angle a meets (|cos a| + |sin a|) sides per texel; the stable map's axes are
-    // within a turn of the world's: between 1 and sqrt 2.
+    // A line that crosses a grid at the angle a meets |cos a| + |sin a| sides per texel. The stable map may be turned
+    // by any angle: between 1 and sqrt 2.
     const double per_texel = static_cast<double>(changes) / static_cast<double>(pixels) * texel_m / pixel_m;
     EXPECT_GT(per_texel, 0.95);
     EXPECT_LT(per_texel, 1.05 * std::sqrt(2.0));

@@ -18,7 +18,7 @@ protected:
         draw();
         shown_ = picture();
     }
-    /// The same without any view.
+    /// Draws the picture without any view.
     void show_plain() {
         settings.debug = {};
         draw();
@@ -31,7 +31,7 @@ protected:
     const ConsumerItem& camera() { return frame().snapshot().consumers.front(); }
     glm::uvec2 size_px() const { return settings.viewport_px; }
 
-    /// Where a pixel sees the plane y = 0; nothing where it sees something else or looks past it.
+    /// Returns where a pixel sees the plane y = 0; nothing if it sees something else or looks past it.
     std::optional<glm::dvec3> ground_at(std::uint32_t x, std::uint32_t y) {
         const boxes::Ray ray = boxes::pixel_ray(camera(), x, y);
         if (!(ray.direction.y < 0.0)) return std::nullopt;
@@ -40,7 +40,7 @@ protected:
             if (boxes::meets(box, ray.origin, p, truth.margin_m)) return std::nullopt;
         return p;
     }
-    /// The pixel that sees a point; nothing if it is outside the picture.
+    /// Returns the place in the picture, pixels, that sees a point; nothing if it is outside the picture.
     std::optional<glm::dvec2> place_of(const glm::dvec3& p_ws) {
         const glm::dvec3 p = (p_ws - camera().position_ws_m) * camera().rotation_ws;
         const double half_y = std::tan(0.5 * camera().fov_y_rad);
@@ -51,7 +51,7 @@ protected:
         return inside ? std::optional(place) : std::nullopt;
     }
     static glm::dvec3 linear(const glm::vec3& srgb) { return {linear(srgb.r), linear(srgb.g), linear(srgb.b)}; }
-    /// What blending `colour` (linear) over a pixel gives.
+    /// Blends `colour` (linear) over a pixel.
     static Srgb over(const Srgb& below, const glm::dvec3& colour, double share) {
         Srgb mixed{};
         for (int i = 0; i < 3; ++i) {
@@ -60,11 +60,12 @@ protected:
         }
         return mixed;
     }
-    /// The same of a colour as labels give it.
+    /// Blends a label's colour over a pixel.
     static Srgb over(const Srgb& below, const debug::Label& label, double share) {
         return over(below, linear(label.swatch.value()), share);
     }
-    /// Two roundings to a byte, each half a step, and one by the device's own curve.
+    /// Returns whether two colours differ by at most `most` steps. The default allows two roundings to a byte, half a
+    /// step each, and one step by the device's own curve.
     static bool near(const Srgb& a, const Srgb& b, int most = 2) {
         for (std::size_t i = 0; i < a.size(); ++i)
             if (std::abs(a[i] - b[i]) > most) return false;

@@ -20,7 +20,8 @@ protected:
         target = keep(device().create_target({.label = "target", .colours = {{colour}}, .depth = {depth}}));
     }
 
-    /// A program whose triangle covers the viewport at `depth`, and whose fragments run `body`.
+    /// Makes a program with a triangle that covers the viewport at depth `z`, a GLSL expression, and fragments that run
+    /// `body`.
     gl::ProgramHandle full_screen(const std::string& body, const std::string& declarations = "",
                                   const std::string& z = "0.5") {
         return keep(device().create_program(

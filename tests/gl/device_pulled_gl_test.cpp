@@ -29,8 +29,8 @@ TEST_F(DevicePulled, TrianglesAreMadeOfNothingButTheirVertexNumbers) {
 
 TEST_F(DevicePulled, PointsAreSquaresOfTheSizeThatTheirVertexSays) {
     ASSERT_GE(device().info().max_point_px, 6u);
-    // Around (4.5, 7), of 5 pixels a side: columns 2 to 6, rows 5 to 9 (4.5 to 9.5). The first two vertices are not
-    // asked for; the fourth lies beside the target. NVIDIA draws the part of a point that lies in it, too.
+    // The square is around (4.5, 7), 5 pixels wide: columns 2 to 6, and 4.5 to 9.5 in rows. The draw leaves out the
+    // first two vertices; the fourth lies beside the target. NVIDIA draws the part of a point that lies in it, too.
     const gl::ProgramHandle program = keep(device().create_program(
         {.label = "points",
          .vertex = "#version 450 core\nvoid main() { vec2 at = gl_VertexID == 2 ? vec2(4.5, 7.0) : vec2(24.0, 3.0);\n"
@@ -48,7 +48,7 @@ TEST_F(DevicePulled, PointsAreSquaresOfTheSizeThatTheirVertexSays) {
     for (std::uint32_t y = 0; y < kSize_px; ++y)
         for (std::uint32_t x = 0; x < kSize_px; ++x) {
             const bool inside = x >= 2 && x <= 6 && y >= 5 && y <= 8;
-            const bool on_border = x >= 2 && x <= 6 && (y == 4 || y == 9);  // whose middles lie on the square's sides
+            const bool on_border = x >= 2 && x <= 6 && (y == 4 || y == 9);  // their middles lie on the square's sides
             if (on_border) continue;
             EXPECT_EQ(at(image, x, y)[0], inside ? 255 : 0) << x << ' ' << y;
         }

@@ -2,7 +2,7 @@
 
 #include "tests/gl/device_fixture.h"
 
-// Compute programs, copies between buffers, and reading back without a wait.
+// Compute programs, copies between buffers, and reading back without blocking.
 namespace gnomon {
 namespace {
 
@@ -23,7 +23,7 @@ protected:
                                                            "in;\nlayout(std430, binding = 3) buffer B { uint n[]; };\n"
                                                            "void main() { n[gl_LocalInvocationIndex] *= 2u; }\n"}));
     }
-    /// 1, 2, 3, 4, doubled, on their way back.
+    /// Records commands that double 1, 2, 3 and 4 and copy them to the buffer that is read back.
     gl::CommandList doubling() const {
         constexpr std::array<std::uint32_t, 4> numbers = {1, 2, 3, 4};
         gl::CommandList list;
@@ -108,7 +108,7 @@ TEST_F(DeviceReadback, APartOfABufferIsCopiedToItsPlaceAndNothingElseChanges) {
 TEST_F(DeviceReadback, ComesInTimeWithoutAFinishIfOneAsksAgain) {
     run(doubling());
     Readback state = Readback::pending;
-    constexpr int kMostTries = 10'000'000;  // of some microseconds
+    constexpr int kMostTries = 10'000'000;  // some microseconds each
     for (int i = 0; i < kMostTries && state == Readback::pending; ++i) state = read_back();
     EXPECT_EQ(state, Readback::done);
     EXPECT_THAT(values, ElementsAre(2u, 4u, 6u, 8u));

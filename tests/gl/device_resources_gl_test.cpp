@@ -20,7 +20,7 @@ using ::testing::Not;
 using DeviceResources = DeviceTest;
 
 TEST_F(DeviceResources, InfoNamesTheRendererAndItsLimits) {
-    // Who asks for a 4.5 core context may be given any later one.
+    // A request for a 4.5 core context may yield any later version.
     EXPECT_THAT(device().info().name, ::testing::AnyOf(HasSubstr("OpenGL 4.5"), HasSubstr("OpenGL 4.6")));
     EXPECT_GE(device().info().max_texture_px, 4096u);
     EXPECT_GE(device().info().max_layers, 2048u) << "guaranteed by OpenGL";
@@ -40,7 +40,7 @@ struct FormatRow {
 };
 class DeviceFormat : public GlTest, public ::testing::WithParamInterface<FormatRow> {};
 
-/// Bytes that every format can hold exactly: depth as fractions of 2^16 - 1, other formats as small values.
+/// Makes bytes that every format can hold exactly: depth as fractions of 2^16 - 1, other formats as small values.
 std::vector<std::byte> pattern(Format format, std::size_t texels) {
     std::vector<std::byte> bytes;
     const auto add = [&](auto value) {
@@ -291,7 +291,7 @@ TEST_F(DeviceResources, IncompleteTargetsAreRefused) {
     EXPECT_EQ(device().create_target({.label = "no layer", .depth = {depth, 1}}).failure, Failure::incomplete_target);
     EXPECT_EQ(device().create_target({.label = "dead", .depth = {{999}}}).failure, Failure::invalid_value);
     EXPECT_EQ(gl::live_objects(device()), live);
-    take_messages();  // Mesa says of each why it is incomplete
+    take_messages();  // Mesa reports why each target is incomplete
 }
 
 TEST_F(DeviceResources, AShaderThatDoesNotCompileSaysWhereAndLeavesNothing) {

@@ -77,7 +77,7 @@ TEST_F(DimLightsGl, AnExposureThatFollowsThePictureLeavesFaintLightsOut) {
             EXPECT_GT(light.why.display_steps.value(), 0.0);
         }
     EXPECT_LE(most_apart(with, drawn(false)), 1);
-    // Ten thousand times as bright they are not faint enough any more.
+    // Ten thousand times as bright, they are too bright to be left out.
     for (const ecs::Entity light : lights)
         if (world.get<Light>(light)->kind == LightKind::point)
             world.patch<Light>(light, [](Light& l) { l.intensity *= 1.0e4f; });

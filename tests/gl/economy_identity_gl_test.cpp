@@ -10,25 +10,25 @@
 #include "tests/oracle/reference_tracer.h"
 #include "tests/unit/math/random_seed.h"
 
-/// The scripted runs in pictures: the visibility of every light, for every camera, is bit for bit that of economy=off,
-/// where every view is drawn in every frame. What gets no shadow at all is held against rays.
+/// The scripted runs in pictures: the visibility of every light, for every camera, is bit for bit that of economy=off.
+/// There every view is drawn in every frame. Lights that get no shadow at all are compared with rays.
 namespace gnomon {
 namespace {
 
 constexpr glm::uvec2 kPicture_px{96, 64};
-/// So many frames of the script, then so many in which nothing changes: what pixels saw is kept.
+/// Number of frames of the script, then of frames in which nothing changes: there visibility is kept.
 constexpr int kStretch = 6;
 constexpr std::size_t kPixels = std::size_t{kPicture_px.x} * kPicture_px.y;
 
-/// Whether a light's shadows are meant to be those of its rays: not of a range that somebody else chose, which leaves
-/// out casters beyond it, and not of a sun seen in perspective, whose rays are not parallel.
+/// Returns whether a light's shadows must be those of its rays. A range that was set leaves out casters beyond it; a
+/// sun in perspective has rays that are not parallel.
 bool follows_rays(const LightItem& light) {
     const ShadowTuning::Projection& given = light.tuning.projection;
     const bool is_spread = light.kind == LightKind::directional && given.kind == LightProjection::perspective;
     return given.near_m == 0.0f && given.far_m == 0.0f && !is_spread;
 }
 
-/// One of each way to store a map and to read it; all of them in a long run, since each costs programs.
+/// Returns one filter for each way to store a map and to read it, as each costs programs; in a long run all.
 std::vector<ShadowFilter> filters_of_run() {
     if (!is_long_run())
         return {ShadowFilter::hardware_2x2, ShadowFilter::triangles, ShadowFilter::evsm2, ShadowFilter::pcss};

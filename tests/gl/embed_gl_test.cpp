@@ -41,7 +41,7 @@ TEST_P(EmbedMask, HasTheShareOfEachPixelThatTheFrameShows) {
     EXPECT_LE(d.largest, 255.0f / 32.0f + 1.5f);
 }
 
-/// A spot's map turns with its light. Turned otherwise it has other texels at edges, where either map may miss.
+/// Turns a spot, and its map with it. A turned map has other texels at edges, where either map may miss.
 TEST_F(EmbedTest, SpotsTurnedAboutTheirDirectionAreAsRight) {
     make_engine(Depths::usual_float);
     add_room();

@@ -12,8 +12,8 @@
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"
 
-// The regression gate: a small fixed sweep, whose wrong pixels are counted and may not become more than were recorded.
-// Only one software device counts the same everywhere, to the pixel. Times are never gated.
+// The regression gate: a small fixed sweep. Its wrong pixels are counted and may not exceed the recorded numbers. Only
+// one software device counts the same everywhere, to the pixel. Times are never gated.
 namespace gnomon {
 namespace {
 
@@ -26,7 +26,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr glm::uvec2 kGateSize_px{400, 225};
-/// Of the quick sweep, beside what tutorials set up: a row per way to filter, fit, store and bias.
+/// Rows of the quick sweep, beside what tutorials set up: one per way to filter, fit, store and bias.
 constexpr std::string_view kRows[] = {bench::kDefaultsRow, "fit=tight", "fit=stable",         "cascades=1",
                                       "cascades=4",        "hard",      "bias=normal_offset", "hard, resolution=512",
                                       "depth_format=d24",  "sharp_4x4", "hardware_2x2",       "poisson_4",
@@ -47,7 +47,7 @@ std::vector<bench::SweepRow> gated_rows() {
 
 class ErrorGate : public TruthTest {
 protected:
-    /// False: the device is no one's to compare with; says so.
+    /// Opens the stage and traces its truths. Returns false, and fails the test, if either fails.
     bool open_stage() {
         bench::StageOptions options;
         options.size_px = kGateSize_px;
@@ -84,7 +84,7 @@ protected:
         ADD_FAILURE() << name;
         return {};
     }
-    /// Of the recorded ones those of that row.
+    /// Returns the recorded errors of the row `name`.
     static ErrorsByRow recorded(const std::string& name) {
         ErrorsByRow rows = test::read_errors(record_file()).rows;
         std::erase_if(rows, [&](const auto& row) { return row.first.second != name; });

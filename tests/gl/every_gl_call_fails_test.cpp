@@ -12,7 +12,7 @@
 #include "tests/long_run.h"
 #include "tests/system/fault_scenes.h"
 
-// OpenGL itself fails under the executor, call by call, while the built-in scene is set up and runs: every frame comes,
+// OpenGL itself fails under the executor, call by call, while the built-in scene is set up and runs. Every frame comes,
 // the pictures after the fault are those without one, and no object is left behind.
 namespace gnomon {
 namespace {
@@ -44,7 +44,7 @@ protected:
             ASSERT_TRUE(gpu.frame->read_picture(sound.emplace_back()));
         }
     }
-    /// The rule of the error, or nothing.
+    /// Makes the device and the frame system. Returns the rule of the error, or nothing.
     std::string make(Gpu& gpu) {
         auto device = gl::make_gl45_device({}, {.keeps_state = keeps_state});
         if (!device) return device.error().rule;

@@ -30,7 +30,7 @@ protected:
         return !light_facts(kind.kind).area() || filter.width == shadow::FilterWidth::source;
     }
     static constexpr std::size_t kPointLike = 3, kArea = 4, kSoft = 4;  // kinds; kinds; filters that see a source
-    /// One light per row, each at a place of its own.
+    /// Adds one light per row, each at its own place.
     void add_lights() {
         for (const shadow::LightKindRow& kind : shadow::light_kind_table())
             for (const shadow::FilterRow& filter : shadow::filter_table()) {
@@ -46,7 +46,7 @@ protected:
                 lights.push_back(add_light(light, at, -at, wish));
             }
     }
-    /// The visibility of the last of `indices`, all of them recorded in one list.
+    /// Returns the visibility of the last of `indices`; all of them are recorded in one list.
     std::vector<float> visibility_after(std::initializer_list<std::uint32_t> indices) {
         gl::CommandList list;
         for (const std::uint32_t i : indices) EXPECT_TRUE(lighting->record_visibility(inputs(), i, *scene, list));

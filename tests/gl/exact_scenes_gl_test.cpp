@@ -5,12 +5,12 @@
 #include "tests/oracle/exactness.h"
 #include "tests/source_paths.h"
 
-// filter=exact against rays in double: no pixel is wrong whose truth does not hang on the last digits.
+// filter=exact against rays in double: no pixel is wrong, unless its truth depends on the last digits.
 namespace gnomon {
 namespace {
 
 constexpr glm::uvec2 kSize_px{640, 360};
-// Of the scored pixels.
+// Shares of the scored pixels.
 constexpr double kMostAmbiguous = 0.001, kMostOtherSurface = 0.0005;
 
 class ExactScenes : public TruthTest {
@@ -26,7 +26,7 @@ protected:
         LightReport report;
         oracle::Exactness found;
     };
-    /// Every light of the stage's last frame, against its snapshot.
+    /// Judges every light of the stage's last frame by its snapshot.
     static std::vector<Judged> judge(bench::Stage& stage) {
         const SceneSnapshot& scene = stage.frame().snapshot();
         const ConsumerItem& camera = scene.consumers.front();
@@ -104,7 +104,7 @@ TEST_F(ExactScenes, SponzasSunIsTheTruth) {
     expect_exact(judge(*stage));
 }
 
-/// What bends is drawn, measured for contours and put into the trees anew.
+/// Draws a mesh that bends: it is measured for contours and put into the trees again.
 TEST_F(ExactScenes, ARunningFoxIsTheTruth) {
     auto options = exact();
     options.scene = test::data_folder() / "fox-draco-testdata/Fox/glTF/Fox.gltf";

@@ -5,8 +5,8 @@
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"
 
-// filter=exact_soft against 256 rays to all of each source: what is certain is right, and penumbrae are off by no more
-// than the number of their rays makes them.
+// filter=exact_soft against 256 rays to all of each source. What is certain is right. Penumbrae are off by no more than
+// the number of their rays explains.
 namespace gnomon {
 namespace {
 
@@ -25,7 +25,7 @@ protected:
     }
     struct Judged {
         std::size_t scored = 0, whole = 0, umbra = 0, penumbra = 0, off = 0;
-        double square_error = 0.0, chance = 0.0;   // sums over the penumbra: what is, and what so many random rays make
+        double square_error = 0.0, chance = 0.0;   // sums over the penumbra: measured; expected of random rays
     };
     static Judged judge(const bench::LightAccuracy& light, double rays) {
         Judged judged;

@@ -22,9 +22,9 @@ protected:
 };
 
 TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
-    // Pixels whose tap lies from a texel's border or a depth tie no farther than a picture's positions are off: half a
-    // sub-pixel step of the rasteriser, 2^-9 pixel each way, for which the shader's bias allows and the bench's does
-    // not.
+    // Pixels may differ where a tap is as near to a texel's border or a depth tie as a picture's positions are off.
+    // That is half a sub-pixel step of the rasteriser, 2^-9 pixel each way. The shader's bias allows for it, the
+    // bench's does not.
     constexpr double kMostRounded = 5e-3, kLeastMoved = 2e-2;
     const auto stage = open(small("hard"));
     ASSERT_TRUE(stage);

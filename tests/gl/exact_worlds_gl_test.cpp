@@ -32,7 +32,8 @@ protected:
         return add_light({.kind = GetParam(), .intensity = 1000.0f, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at + from,
                          -from, shadow);
     }
-    /// Two quads of the plane z = 3.5 x + 1.5 y, with corners that floats hold, one upon a part of the other.
+    /// Makes two quads of the plane z = 3.5 x + 1.5 y, with corners that floats represent exactly. One lies upon a part
+    /// of the other.
     static game::Shape slanted_quads() {
         game::Shape shape;
         const auto add_quad = [&shape](float low, float high) {
@@ -71,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ExactWorlds,
                          ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                          [](const auto& test) { return kind_name(test.param); });
 
-/// Wires of 1 to 6 mm, boxes that run into each other, stand on each other and touch face to face, a sheet, needles and
-/// triangles without area.
+/// Places wires of 1 to 6 mm, and boxes that run into each other, stand on each other and touch face to face. Adds a
+/// sheet, needles and triangles without area.
 TEST_P(ExactWorlds, WiresContactsAndWhatRunsIntoEachOtherAreTheTruth) {
     add_ground();
     for (int i = 0; i < 6; ++i) {
@@ -183,8 +184,8 @@ TEST_P(ExactWorlds, WhatMovedIsWhereItIs) {
     }
 }
 
-/// Facets so narrow that beside the terminator a receiver lies behind its neighbour's plane by less than a float tells
-/// apart: the place comes from the triangle's own plane in double, and the basis is the same.
+/// Bends facets so little that beside the terminator a receiver lies behind its neighbour's plane by less than a float
+/// resolves. Its place comes from the triangle's own plane in double, and the basis is the same.
 TEST_P(ExactWorlds, FacetsThatHardlyBendDarkenTheirNeighbours) {
     for (const double turn : {0.0, 0.7}) {
         start_anew();
@@ -201,7 +202,8 @@ TEST_P(ExactWorlds, FacetsThatHardlyBendDarkenTheirNeighbours) {
     }
 }
 
-/// Of a normal that was rounded to floats a place would lie off the plane that both quads are in, behind the other one.
+/// Draws two quads in one plane. A place from a normal that was rounded to floats would lie off that plane, behind the
+/// other quad.
 TEST_P(ExactWorlds, FacesThatAreOneDoNotDarkenEachOther) {
     constexpr std::uint32_t kFew_px = 64;  // texels as wide as the bars are apart: rays for most
     const glm::dquat rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));

@@ -18,10 +18,10 @@ struct State {
     GlFault fault = GlFault::null_map;
     std::uint64_t first = 0, last = 0;  // calls that fail: [first, last)
     std::array<std::uint64_t, kFaults> calls{};
-    GLenum error = GL_NO_ERROR;  // of a call that was kept from the driver, until asked for
+    GLenum error = GL_NO_ERROR;  // left by a fault, until get_error()
     bool lost = false;
     std::int64_t live_names = 0;
-    std::vector<void (*)()> undo;  // gives each entry of the table back
+    std::vector<void (*)()> undo;  // restores each entry of the table
 };
 State state;
 
@@ -36,7 +36,7 @@ std::int64_t names_in(GLsizei count, const GLuint* names) {
 
 template <auto Slot>
 struct Hook;
-/// One entry of the table: what it held, and what stands in for it.
+/// One entry of the table: the driver's function, and what stands in for it.
 template <class R, class... A, R (**Slot)(A...)>
 struct Hook<Slot> {
     static inline R (*driver)(A...) = nullptr;

@@ -3,8 +3,8 @@
 
 namespace gnomon {
 
-/// A way in which OpenGL can fail, each with its own calls: whatever takes memory or draws, completeness checks,
-/// compile and link status, mappings, and the question whether the context still lives.
+/// A way in which OpenGL can fail. Each strikes calls of its own: allocations and draws, completeness checks, compile
+/// and link status, mappings, and the query whether the context is lost.
 enum class GlFault : std::uint8_t {
     out_of_memory,
     invalid_value,
@@ -16,9 +16,9 @@ enum class GlFault : std::uint8_t {
 };
 const char* to_text(GlFault fault);
 
-/// Stands between the executor and the driver while it lives, in the loader's table of functions: fails the calls that
-/// are chosen, and counts OpenGL's objects. One at a time; everything that is to fail must have been called before,
-/// since the table is filled by first calls.
+/// Stands between the executor and the driver while it lives, in the loader's table of functions. Fails chosen calls,
+/// and counts OpenGL's objects. One at a time; everything that is to fail must have been called before, since the table
+/// is filled by first calls.
 class FailingGl {
 public:
     FailingGl();
@@ -26,7 +26,7 @@ public:
     FailingGl(const FailingGl&) = delete;
     FailingGl& operator=(const FailingGl&) = delete;
 
-    /// Counts anew; the `call`th call (from 0) that `fault` can strike fails, and if it is `lasting` all later ones,
+    /// Restarts the counts. The `call`th call (from 0) that `fault` can strike fails, and if `lasting` all later ones,
     /// until end(). A lost context stays lost until the next begin().
     void begin(GlFault fault, std::uint64_t call, bool lasting);
     void end();

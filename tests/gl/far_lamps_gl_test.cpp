@@ -8,7 +8,7 @@
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/traced_frame_fixture.h"
 
-/// Lamps from a few metres to ten thousand kilometres away that light the same place as brightly: the farther one
+/// Lamps from a few metres to ten thousand kilometres away that light the same place as brightly. The farther one
 /// stands, the less of a cube's face or of a cone its light falls through.
 namespace gnomon {
 namespace {
@@ -18,7 +18,7 @@ const glm::dvec3 kToLamp = glm::normalize(glm::dvec3(-0.526, 0.789, 0.316));
 
 class FarLampWorld : public TracedFrameTest {
 protected:
-    /// A ground with things of several sizes on it, `half_m` to each side.
+    /// Builds a ground, `half_m` to each side, with things of several sizes on it, and a camera.
     void build(double half_m, int things) {
         start_anew();
         settings.viewport_px = {240, 136};
@@ -101,7 +101,7 @@ TEST_P(FarLamps, SayWhereFloatsTellNothingApart) {
     draw();
     EXPECT_NE(frame().report().lights.at(0).reason, Reason::depth_coarse);
     build(4.0, 4);
-    // Depths from there to the ground cannot be told apart by less than metres.
+    // Floats resolve depths from there to the ground only to metres.
     place(add_analysed(game::make_box(glm::dvec3(-0.1), glm::dvec3(0.1))), {.translation_m = kToLamp * 9e6});
     add_lamp(GetParam(), 1e7);
     draw();

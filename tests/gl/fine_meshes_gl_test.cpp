@@ -3,8 +3,8 @@
 
 #include "tests/gl/traced_frame_fixture.h"
 
-/// Meshes whose triangles are a few to a texel: the walk from the one that a texel shows reaches the one above the
-/// receiver all the same (shaders/shadow/filters/triangles/mesh_walk.glsl, kMostSteps).
+/// Meshes with a few triangles to a texel. The walk from the triangle that a texel shows still reaches the triangle
+/// above the receiver (shaders/shadow/filters/triangles/mesh_walk.glsl, kMostSteps).
 namespace gnomon {
 namespace {
 

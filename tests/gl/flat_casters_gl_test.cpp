@@ -13,7 +13,8 @@ protected:
         place(add_analysed(game::make_box({-1.0, -0.5, -1.0}, {1.0, 0.5, 1.0})), transform);
         add_camera({.fov_y_rad = 0.8, .near_m = 0.1, .far_m = 60.0}, {3.0, 5.0, 6.0}, {-3.0, -5.0, -6.0});
     }
-    /// Share of the pixels. Texels have steps; triangles have none, and a walk goes over the flat sides of a box.
+    /// Returns the limit, a share of the pixels. Texels have steps; triangles have none, and a walk goes over the flat
+    /// sides of a box.
     static double most_wrong() { return GetParam() == ShadowFilter::hard ? 0.005 : 0.0001; }
 };
 
@@ -22,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, FlatCasters,
                          [](const auto& test) { return std::to_string(static_cast<int>(test.param)); });
 
 TEST_P(FlatCasters, CastAndReceiveAsPlatesDo) {
-    // The second turns what is flat out of all axes: its basis is singular but for rounding.
+    // The second plate is turned out of all axes: its basis is singular except for rounding.
     const Transform plates[] = {{.translation_m = {0.0, 1.0, 0.0}, .scale = {1.0, 0.0, 1.0}},
                                 {.translation_m = {0.0, 1.5, 0.0},
                                  .rotation = glm::angleAxis(0.5, glm::normalize(glm::dvec3(1.0, 2.0, 3.0))),

@@ -11,7 +11,7 @@ namespace {
 
 class FlatReceivers : public BoxTest {
 protected:
-    /// A ground under two boxes, seen from below both, so that it alone is.
+    /// Builds a ground under two boxes. The camera is below both, so that it sees the ground alone.
     void build(double scale) {
         start_anew();
         truth = {};
@@ -21,7 +21,7 @@ protected:
         add_box(scale * glm::dvec3(-1.5, 3.5, -1.5), scale * glm::dvec3(0.0, 4.0, 1.5));
         add_camera({.fov_y_rad = 2.5, .near_m = 0.01 * scale}, scale * glm::dvec3(0.0, 0.8, 0.0), {0.0, -1.0, 0.0});
     }
-    /// A light straight above, of every row of the table.
+    /// Adds a light straight above for every row of the table.
     void add_rows(LightKind kind, double scale, const ShadowTuning& tuning) {
         const Light light{.kind = kind, .intensity = 3000.0f, .outer_cone_rad = 0.9f};
         for (const shadow::FilterRow& row : shadow::filter_table())

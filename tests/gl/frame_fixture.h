@@ -68,7 +68,7 @@ protected:
         return entity;
     }
 
-    /// Before another world and library are filled.
+    /// Drops frame, world and library, so that another world can be filled.
     void start_anew() {
         frame_.reset();
         world = {};

@@ -27,7 +27,7 @@ protected:
             t.rotation = looking_along({-0.7, -0.8, -0.5});
         });
     }
-    /// What a picture says of each of its pixels.
+    /// What a picture shows in each of its pixels.
     struct Seen {
         std::vector<int> maps;
         std::vector<float> visible;
@@ -41,7 +41,7 @@ protected:
             for (std::uint32_t x = 0; x < size_px().x; ++x) seen.maps.push_back(map_at(x, y));
         return seen;
     }
-    /// Compares what `after`, the newest picture, says of points of the ground with what `before` said of them.
+    /// Numbers of points of the ground at which the newest picture shows what an earlier one showed, or something else.
     struct Comparison {
         std::size_t maps_alike = 0, maps_other = 0, shadows_alike = 0, shadows_other = 0, new_without_map = 0;
     };
@@ -76,7 +76,7 @@ private:
             if (near(shown_at(x, y), over(plain_at(x, y), labels()[i], kFrozenTint))) return static_cast<int>(i);
         return kUnknown;
     }
-    /// The pixel of an earlier picture that saw a point of the ground, if no box stood before it.
+    /// Returns the pixel of an earlier picture that saw a point of the ground, if no box stood before it.
     std::optional<glm::ivec2> seen_by(const ConsumerItem& then, const glm::dvec3& p_ws) {
         for (const boxes::Box& box : truth.boxes)
             if (boxes::meets(box, then.position_ws_m, p_ws, truth.margin_m)) return std::nullopt;
@@ -89,7 +89,7 @@ private:
         const bool inside = at.x >= 1 && at.y >= 1 && at.x <= most.x && at.y <= most.y;
         return inside ? std::optional(at) : std::nullopt;
     }
-    /// What nine pixels agree on; `none` if they do not.
+    /// Returns the value that nine pixels agree on; `none` if they do not.
     template <class T>
     T around(const std::vector<T>& field, const glm::ivec2& at, T none) const {
         const auto value = [&](int x, int y) {

@@ -6,7 +6,7 @@ namespace gnomon {
 /// A pass of the engine's that writes one float to each pixel of a target of its own.
 class FullScreenPass {
 public:
-    /// `fragment`: text after the version, with a float output at location 0.
+    /// Makes the pass. `fragment`: text after the version, with a float output at location 0.
     FullScreenPass(glm::ivec2 size_px, const std::string& fragment) : size_px_(size_px) {
         program_ = linked(R"(#version 450 core
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); })",

@@ -19,7 +19,7 @@ inline constexpr bool kKeepsState = true;
 inline constexpr bool kKeepsState = false;
 #endif
 
-/// In tests' names and traces.
+/// Names a kind of light in tests' names and traces.
 inline const char* kind_name(LightKind kind) {
     return kind == LightKind::directional ? "sun" : kind == LightKind::spot ? "spot" : "point";
 }
@@ -58,7 +58,7 @@ protected:
     /// Messages of medium or higher severity so far; they no longer fail the test.
     std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
-    /// The handle, which must have been made; destroyed at the end of the test, last made first.
+    /// Returns the handle, which must have been made. It is destroyed at the end of the test, last made first.
     template <class H>
     H keep(const gl::Created<H>& created) {
         EXPECT_TRUE(created) << gl::to_text(created.failure) << ": " << created.log;
@@ -71,7 +71,7 @@ protected:
         EXPECT_STREQ(gl::to_text(device_->submit(list).failure), "none") << gl::to_text(list);
     }
 
-    /// All texels of one layer, T as the format travels (see Device::read_texture).
+    /// Reads all texels of one layer, T as the format travels (see Device::read_texture).
     template <class T>
     std::vector<T> read(gl::TextureHandle texture, std::size_t values, std::uint32_t layer = 0) {
         std::vector<T> texels(values);

@@ -7,8 +7,9 @@
 
 namespace gnomon {
 
-/// The inner side of a pipe along z, 0.5 m in radius and open above, in facets across: single faces that are seen from
-/// both sides. Beyond where it turns from a low light lies what its last averted facets darken.
+/// Makes the inner side of a pipe along z, 0.5 m in radius and open above, with `facets` facets across. They are single
+/// faces that are seen from both sides. Beyond where it turns from a low light lies what its last averted facets
+/// darken.
 inline game::Shape gutter_shape(int facets, float half_length_m) {
     constexpr float kRadius_m = 0.5f;
     game::Shape shape;

@@ -8,14 +8,14 @@ namespace gnomon::hard {
 /// Worlds of hard cases, drawn.
 class HardCaseGl : public GlTest {
 protected:
-    // The second frame is the first whose automatic choices could have settled.
+    // Automatic choices cannot have settled before the second frame.
     static constexpr int kSettlingFrames = 2;
 
     void TearDown() override {
         frame_.reset();
         GlTest::TearDown();
     }
-    /// A new frame of the world; the one before is gone.
+    /// Draws the world with a new frame system; destroys the one before.
     void draw(World& world, int frames = kSettlingFrames) {
         frame_.reset();
         auto made = FrameSystem::create(device(), world.library);
@@ -23,7 +23,7 @@ protected:
         frame_ = std::move(made).value();
         for (int i = 0; i < frames; ++i) draw_again(world);
     }
-    /// The next frame of the world that was drawn last.
+    /// Draws the next frame of the world that was drawn last.
     void draw_again(World& world) {
         FrameSettings settings;
         settings.viewport_px = world.viewport_px;

@@ -11,10 +11,10 @@
 namespace gnomon::hard {
 namespace {
 
-// Of the scored pixels. A picture of 320 x 180 has many edges for its area: one pixel in fifty, and in a thousand of
-// them one that is not at an edge.
+// Shares of the scored pixels. A picture of 320 x 180 has many edges for its area: one pixel in fifty may be wrong.
+// Away from edges one in a thousand may be.
 constexpr double kMostWrong = 0.02, kMostAcneAndLeak = 0.001;
-// Maps that stay are coarser, so that a few more edges lie beyond the band of 2 px that tells them from acne and leak.
+// Maps that stay are coarser. A few more edges thus lie beyond the band of 2 px that separates them from acne and leak.
 constexpr double kMostWhereMapsStay = 0.002;
 constexpr std::size_t kLeastScored = 500;
 
@@ -100,7 +100,7 @@ protected:
         }
         EXPECT_GE(scored, kLeastScored);
     }
-    /// What is lost has its reason, and no other.
+    /// Checks that what is lost has its reason, and no other.
     void expect_named(std::uint32_t l, const Truth& truth, const oracle::LightTruth& traced, const oracle::Metrics& m) {
         const bench::EdgeBounds bounds(scene(), device().info(), frame().fit_history());
         const oracle::EdgeExceptions beyond = oracle::edge_exceptions(
@@ -125,10 +125,11 @@ INSTANTIATE_TEST_SUITE_P(EachRow, HardCasesGl, ::testing::ValuesIn(shown_cases()
 
 class SlowSunGl : public HardCaseGl, public ::testing::WithParamInterface<const char*> {};
 
-/// A sun that creeps makes edges creep: a point may change as often as in truth, and oftener only beside a true edge.
+/// Moves a sun so slowly that edges creep. A point may change as often as in truth, and oftener only beside a true
+/// edge.
 TEST_P(SlowSunGl, FlipsNoPointOftenerThanTheTruthDoesButBesideAnEdge) {
     constexpr int kFrames = 16;
-    constexpr double kStep = 1e-2;  // of the tangent: together they move an edge by some pixels
+    constexpr double kStep = 1e-2;  // step of the tangent; all of them move an edge by some pixels
     World world;
     world.settings = {std::string("fit=") + GetParam()};
     world.ground(6.0);
@@ -170,7 +171,7 @@ TEST_P(SlowSunGl, FlipsNoPointOftenerThanTheTruthDoesButBesideAnEdge) {
     EXPECT_LE(static_cast<double>(apart), kMostAcneAndLeak * static_cast<double>(scored) / kFrames)
         << apart << " points, none beside an edge";
     // All that changes is an edge that passes. A hard edge made of texels passes a point once, or back and forth as its
-    // steps are drawn anew: no more than a few times as often as the true one.
+    // steps are drawn again. It does so no more than a few times as often as the true edge.
     constexpr double kMostPerTrueFlip = 4.0;
     EXPECT_LE(static_cast<double>(flips), kMostPerTrueFlip * static_cast<double>(true_flips));
     EXPECT_GE(2 * flips, true_flips) << "shadows lag behind";

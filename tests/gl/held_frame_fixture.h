@@ -11,8 +11,8 @@
 
 namespace gnomon {
 
-/// A frame whose parts the test holds itself, so that it can hand the lighting what it likes. `world` and `library` are
-/// filled before the first run().
+/// A frame with parts that the test owns, so that it can hand the lighting any inputs. `world` and `library` are filled
+/// before the first run().
 class HeldFrameTest : public FrameTest {
 protected:
     void TearDown() override {
@@ -21,7 +21,7 @@ protected:
         scene.reset();
         FrameTest::TearDown();
     }
-    /// As FrameSystem::run(), with inputs as they were published.
+    /// Runs a frame as FrameSystem::run() does, with inputs as they were published.
     void run() {
         if (!scene) {
             auto made = GpuScene::create(device(), library);
@@ -55,7 +55,7 @@ protected:
     TransformSystem transforms;
     Extractor extractor;
     SceneSnapshot snapshot;
-    gl::CommandList commands;  // of the last run()
+    gl::CommandList commands;  // recorded by the last run()
     FrameReport report;
     shadow::LightingOutcome outcome;
     std::unique_ptr<GpuScene> scene;

@@ -5,13 +5,14 @@
 #include "tests/gl/held_frame_fixture.h"
 #include "tests/long_run.h"
 
-/// A still picture that reads what its pixels saw is, to the bit, the one that looks its lights up: for each row of the
+/// A still picture that reads kept visibility is, to the bit, the picture with lookups. That holds for each row of the
 /// filter table and each kind of light, with blended surfaces before the others.
 namespace gnomon {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-/// One of each way to store a map and to read it, one that takes its seeds from the pixel, and rays; in a long run all.
+/// Returns whether a run tests a filter; a long run tests all. A short run has one for each way to store a map and to
+/// read it, one with seeds from the pixel, and rays.
 bool is_of_run(ShadowFilter filter) {
     constexpr std::array kShort = {ShadowFilter::hard, ShadowFilter::poisson_rotated, ShadowFilter::triangles,
                                    ShadowFilter::evsm2, ShadowFilter::pcss, ShadowFilter::exact};
@@ -82,7 +83,7 @@ TEST_F(KeptVisibilityGl, ShowsTheSameBitsInEveryRow) {
             EXPECT_TRUE(seen() == looked_up) << row.name << ", frame " << i;
         }
         EXPECT_EQ(reading(), 3u) << row.name;
-        // Dark and lit are both there, so that the comparison says something.
+        // Dark and lit are both there, so that the comparison means something.
         for (const std::vector<float>& values : looked_up.visibilities) {
             const auto is_dark = [](float v) { return v >= 0.0f && v < 0.5f; };
             EXPECT_GT(std::count_if(values.begin(), values.end(), is_dark), 20) << row.name;
@@ -91,7 +92,7 @@ TEST_F(KeptVisibilityGl, ShowsTheSameBitsInEveryRow) {
     }
 }
 
-/// One that casts nothing, and so is in no map.
+/// Moves a surface that casts nothing, and so is in no map.
 TEST_F(KeptVisibilityGl, FollowsASurfaceThatNoMapShows) {
     make_world(ShadowFilter::triangles);
     for (int i = 0; i <= kStaticFrames; ++i) draw();
@@ -106,7 +107,7 @@ TEST_F(KeptVisibilityGl, FollowsASurfaceThatNoMapShows) {
     EXPECT_TRUE(seen() == moved);
 }
 
-/// The same, told that nothing changed: the pixels of where it was are read for where it is.
+/// The same with versions as if nothing had changed: the pixels of where the surface was are read for where it is.
 class MisledKeptVisibilityGl : public HeldFrameTest {
 protected:
     void step() {
@@ -132,7 +133,7 @@ TEST_F(MisledKeptVisibilityGl, ASurfaceThatASignatureMissesWouldBeSeen) {
     add_camera({.fov_y_rad = 0.8}, {0.5, 4.0, 6.0}, {-0.5, -4.0, -6.0});
     for (int i = 0; i <= kStaticFrames; ++i) step();
     ASSERT_EQ(report.lights.at(0).kept.reason, Reason::visibility_kept);
-    // Away from the camera: in another order the surfaces would tell.
+    // The box moves away from the camera: another order of the surfaces would change the signature.
     world.patch<Transform>(bystander, [](Transform& t) { t.translation_m.x -= 0.4; });
     const auto versions = [&] {
         std::vector<std::uint64_t> all;
@@ -140,7 +141,7 @@ TEST_F(MisledKeptVisibilityGl, ASurfaceThatASignatureMissesWouldBeSeen) {
         return all;
     };
     const std::vector<std::uint64_t> then = versions();
-    // Where things are goes to the device; lighting alone is told the versions of before.
+    // The device gets the new places; lighting alone gets the versions of before.
     gl::CommandList list;
     extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
     scene->update(snapshot, list);

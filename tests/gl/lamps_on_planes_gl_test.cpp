@@ -4,8 +4,9 @@
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/oracle/exactness.h"
 
-/// Lamps on a table's top, and so near to it that floats cannot tell: it lights what stands above, nothing below; below
-/// the top, the other way round. A wall behind says so by hand, rays in double for all of the picture.
+/// Lamps on a table's top, or nearer to it than floats resolve. A lamp on or above the top lights what stands above and
+/// nothing below; a lamp below it does the reverse. The test itself states what a wall behind must show; rays in double
+/// judge all of the picture.
 namespace gnomon {
 namespace {
 
@@ -18,13 +19,13 @@ struct Case {
     LightKind kind;
     ShadowFilter filter;
     CubeRoute route = CubeRoute::automatic;
-    double most_wrong = 0.002;  // of the scored pixels: what edges are off by in maps of 512 texels; 0: none is
+    double most_wrong = 0.002;  // share of the scored pixels: edges are off by that in maps of 512 texels; 0: none
 };
 
 class LampsOnPlanes : public TracedFrameTest {
 protected:
-    /// The world lies askew, far from its origin, or along the axes. `thick_m`: of a solid table, below its top; 0: a
-    /// sheet.
+    /// Builds the world askew and far from its origin, or along the axes. `thick_m`: thickness of a solid table, below
+    /// its top; 0: a sheet.
     void make_world(bool askew, double thick_m = 0.0, const glm::dvec3& eye = {0.6, 0.5, 6.0}) {
         start_anew();
         settings.viewport_px = {160, 120};
@@ -71,9 +72,9 @@ protected:
         }
         return wall;
     }
-    /// Where the boxes' shadows may be, of any of these lights: they stand farther aside.
+    /// Returns whether the boxes' shadows may be there, of any of these lights: the boxes stand aside.
     static bool behind_a_box(const glm::dvec3& p) { return std::abs(p.x) > 0.65; }
-    /// Draws, and holds the wall against what is written here, the picture against rays. `above`, `below`: whether the
+    /// Draws, and compares the wall with what the caller states, the picture with rays. `above`, `below`: whether the
     /// wall is lit there.
     void expect_true(bool above, bool below, double most_wrong = 0.002) {
         draw();
@@ -148,7 +149,7 @@ TEST_F(LampsOnPlanes, OnASolidTableLightWhatIsAboveIt) {
     }
 }
 
-/// The table is seen edge-on.
+/// Checks lamps that see the table edge-on.
 TEST_F(LampsOnPlanes, BesideATableInItsPlaneLightBothSidesOfIt) {
     for (const bool askew : {false, true}) {
         make_world(askew);
@@ -171,7 +172,7 @@ TEST_F(LampsOnPlanes, SunsInATablesPlaneLightBothSidesOfIt) {
     }
 }
 
-/// A camera in the plane sees the table as nothing, and the wall as any other does.
+/// Checks that a camera in the plane sees the table as nothing, and the wall as any other camera does.
 TEST_F(LampsOnPlanes, AreTheSameToACameraInTheTablesPlane) {
     for (const double eye_m : {0.0, 1e-9, -1e-9}) {
         SCOPED_TRACE(eye_m);
@@ -181,7 +182,7 @@ TEST_F(LampsOnPlanes, AreTheSameToACameraInTheTablesPlane) {
     }
 }
 
-/// Negative control: what leaves one side dark is the table.
+/// Checks that it is the table that leaves one side dark (negative control).
 TEST_F(LampsOnPlanes, WithoutTheTablesShadowLightBothSides) {
     make_world(false);
     world.remove<ShadowCaster>(table);

@@ -5,13 +5,14 @@
 #include "tests/gl/traced_frame_fixture.h"
 
 /// Mouldings: ledges one below the other, each narrower than a texel of the map, so that some show in no texel near
-/// what they darken. Walks from those that do go on over undersides (shaders/shadow/filters/triangles/mesh_walk.glsl).
+/// what they darken. Walks from ledges that do show go on over undersides
+/// (shaders/shadow/filters/triangles/mesh_walk.glsl).
 namespace gnomon {
 namespace {
 
-/// A kind of light, a map too coarse for the ledges, and what of the picture may be lit falsely through it. Walks that
-/// end at the first fold leave 0.41, 0.10 and 0.24 %; these 0.08, 0.04 and 0.13 %, of a point nearly all of it where
-/// four texels agree wrongly.
+/// Kind of light, a map too coarse for the ledges, and the largest share of the picture that may be falsely lit. Walks
+/// that end at the first fold leave 0.41, 0.10 and 0.24 % falsely lit, these walks 0.08, 0.04 and 0.13 %. For a point,
+/// nearly all of it lies where four texels agree wrongly.
 struct Coarse {
     LightKind kind;
     std::uint32_t resolution_px;
@@ -20,7 +21,7 @@ struct Coarse {
 
 class Ledges : public TracedFrameTest, public ::testing::WithParamInterface<Coarse> {
 protected:
-    /// Along z, out of a wall that faces x: teeth with an upper side and an underside each.
+    /// Returns a moulding along z, out of a wall that faces x: teeth with an upper side and an underside each.
     static game::Shape moulding(std::mt19937& random) {
         std::uniform_real_distribution<double> part(0.0, 1.0);
         std::vector<glm::dvec2> profile{{-0.5, -0.5}, {0.0, -0.5}};

@@ -8,7 +8,8 @@
 #include "sample_game/support/built_in_scenes/look_rotation.h"
 #include "tests/gl/truth_scenes.h"
 
-/// Lights whose shadows are left out on purpose, since nobody could see them: the bench names them and counts nothing.
+/// Lights with shadows that are left out on purpose, because they would be invisible. The bench names the lights and
+/// counts nothing.
 namespace gnomon {
 namespace {
 
@@ -16,7 +17,7 @@ using Json = nlohmann::json;
 
 class LeftOutLights : public TruthTest {
 protected:
-    /// A ground and a box beneath a bright sun, a candle beside it and a lamp that is off.
+    /// Returns a ground and a box beneath a bright sun, a candle beside it and a lamp that is off.
     static std::vector<std::byte> box_by_candle() {
         game::GlbBuilder glb;
         const std::uint32_t matt = glb.add_material({.name = "matt"});
@@ -56,7 +57,7 @@ private:
     OwnFolder own_;
 };
 
-constexpr double kSome = 0.02;  // of the pixels, that the box darkens for each light
+constexpr double kSome = 0.02;  // least share of the pixels that the box darkens for each light
 
 TEST_F(LeftOutLights, AreNamedInTheTableAndHaveNoShareOfWrongPixels) {
     const auto stage = open_scene();
@@ -79,7 +80,7 @@ TEST_F(LeftOutLights, AreNamedInTheTableAndHaveNoShareOfWrongPixels) {
     EXPECT_GT(sun["scored_px"], 1000);
 }
 
-/// Negative control: of the same lights, with their shadows missing for another reason.
+/// Checks that shadows of the same lights count if they are missing for another reason (negative control).
 TEST_F(LeftOutLights, AreCountedIfTheirShadowsAreMissingForAnotherReason) {
     const auto stage = open_scene();
     ASSERT_TRUE(stage);

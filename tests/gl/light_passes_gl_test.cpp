@@ -18,7 +18,8 @@ protected:
         settings.viewport_px = {160, 90};
         settings.exposure_ev = 4.0f;
     }
-    /// The same frame, with every light over the whole picture, or at any depth.
+    /// Returns the same frame's picture with every light over the whole picture (not `screen`), or at any depth (not
+    /// `depth`).
     std::vector<std::uint8_t> drawn_with(bool screen, bool depth) {
         shadow::LightingInputs handed = inputs();
         const auto size = glm::ivec2(settings.viewport_px);
@@ -72,7 +73,7 @@ TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
     ASSERT_GT(inputs().lights.at(0).screen.width, 0);
     const std::vector<std::uint8_t> lit = drawn_picture();
     EXPECT_EQ(drawn_with(true, false), lit);
-    // The control: told that it reaches less far, the pass leaves the wall out.
+    // Control: with a shorter reach of the light the pass leaves the wall out.
     shadow::LightingInputs nearer = inputs();
     nearer.lights[0].farthest_depth = inputs().lights[0].farthest_depth * 1.5f;
     gl::CommandList list;
@@ -83,7 +84,8 @@ TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
 
 class LightPassesOf : public LightPasses, public ::testing::WithParamInterface<LightKind> {};
 
-/// The default filter's lights are drawn twice; while the first draw's program waits, once.
+/// Checks that two draws give the picture of one. The default filter's lights are drawn once until the program of the
+/// first of two draws is ready.
 TEST_P(LightPassesOf, TwoDrawsGiveThePictureOfOne) {
     place(add_mesh(game::make_box({-8.0, -0.5, -8.0}, {8.0, 0.0, 8.0})), {}, false);
     for (int i = 0; i < 5; ++i)
@@ -111,7 +113,7 @@ TEST_P(LightPassesOf, TwoDrawsGiveThePictureOfOne) {
     most_rows = lighting::LightPrograms::kNoLimit;
     EXPECT_EQ(draws_of_two(inputs()), 1);
     EXPECT_EQ(drawn_picture(), one);
-    // The control: whoever looks edges up otherwise gets another picture.
+    // Control: lights that look edges up in another way give another picture.
     shadow::LightingInputs plain = inputs();
     for (shadow::LightingLight& light : plain.lights) {
         light.row = light.plain.row;

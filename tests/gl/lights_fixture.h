@@ -32,7 +32,7 @@ protected:
         lights.push_back(add_light(light, at, -at, wish, tuning));
         return lights.back();
     }
-    /// Suns, spots narrow and wide, and points, with maps of several sizes.
+    /// Adds suns, spots narrow and wide, and points, with maps of several sizes.
     void add_eight(ShadowFilter filter = ShadowFilter::automatic) {
         using enum LightKind;
         constexpr std::uint32_t kSizes_px[] = {700, 256, 400};

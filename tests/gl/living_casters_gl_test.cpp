@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 constexpr double kMostWrong = 0.005;
-// Of a picture in which less is shadowed nothing is learnt.
+// With fewer shadowed pixels a picture shows nothing about shadows.
 constexpr std::size_t kLeastShadowed = 500;
 
 class LivingCasters : public TracedFrameTest {
@@ -22,7 +22,7 @@ protected:
         TracedFrameTest::SetUp();
         settings.viewport_px = {640, 480};
     }
-    /// The scene over a ground, with one light and a camera that look down on it. False: there is no such file.
+    /// Opens the scene over a ground, with one light and a camera that look down on it. False: there is no such file.
     bool open(const char* path, LightKind kind, std::optional<std::size_t> animation = {}) {
         const auto file = test::data_folder() / path;
         if (!std::filesystem::exists(file)) return false;
@@ -130,7 +130,7 @@ TEST_P(LivingFiles, CastTheShadowOfWhereTheyAreAtATimeAndNotOfTheirFirstFrame) {
 /// A ball above a ground, under a light of each kind.
 class LivingBall : public LivingCasters, public ::testing::WithParamInterface<LightKind> {
 protected:
-    /// `bend` fills in the deformer, whose mesh has its vertices already.
+    /// Makes the ball's world. `bend` fills in the deformer of a mesh that has its vertices already.
     template <class Bend>
     void make_world(Bend&& bend, const LightShadow& shadow = {}) {
         ball = add_analysed(game::make_sphere(1.0, 32, 16));

@@ -14,7 +14,8 @@
 #include "tests/source_paths.h"
 #include "tests/unit/allocation_counter.h"
 
-// What keeping the state of a shared context costs, in calls of OpenGL; and that the calls without it are as they were.
+// Cost of keeping the state of a shared context, in calls of OpenGL. Without that option the calls are exactly as
+// listed.
 namespace gnomon {
 namespace {
 
@@ -35,7 +36,7 @@ TEST(SpiedGlSelfTest, KnowsEveryFunctionThatTheExecutorCalls) {
     EXPECT_EQ(called, std::set<std::string>(spied.begin(), spied.end()));
 }
 
-/// What a list costs in calls of OpenGL.
+/// Calls of OpenGL that a list costs.
 class CostOfManners : public Manners {
 protected:
     std::vector<std::string> calls_of(const gl::CommandList& list) {

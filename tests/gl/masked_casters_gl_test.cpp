@@ -10,14 +10,14 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kTexels = 128;
-constexpr double kSide_m = 8.0;  // of the card and the ground
+constexpr double kSide_m = 8.0;  // side of the card and of the ground
 constexpr float kTiles = 7.31f;  // repeats of the texture along it: no whole number, or maps would sample all alike
 /// A map of 64 texels samples the card 4096 times: three standard errors of a share.
 constexpr double kShareError = 0.02;
 
 class MaskedFrames : public TracedFrameTest {
 protected:
-    /// Twigs and small leaves, whose average over a few texels is below the cutoff nearly everywhere.
+    /// Returns twigs and small leaves. Their average over a few texels is below the cutoff nearly everywhere.
     static assets::Texture foliage() {
         assets::Texture texture;
         texture.name = "foliage";
@@ -52,14 +52,14 @@ protected:
                              .far_m = 40.0},
                             {0.0, 20.0, 0.0}, {0.0, -1.0, 0.0});
     }
-    /// An unseen card of foliage above a ground, and a camera that sees the ground.
+    /// Adds an unseen card of foliage above a ground, and a camera that sees the ground.
     void make_canopy() {
         const ecs::Entity card = place(add_foliage_card(), {.translation_m = {0.0, 0.5, 0.0}});
         world.patch<MeshRef>(card, [](MeshRef& m) { m.visible = false; });
         place(add_mesh(game::make_card(glm::dvec3(0.0), {0.0, 0.0, kSide_m}, {kSide_m, 0.0, 0.0}), 0), {}, false);
         look_down(0.45 * kSide_m);
     }
-    /// Share of pixels that are wrong, where the card's shadow may be.
+    /// Returns the share of wrong pixels, where the card's shadow may be.
     double wrong_share() {
         const Judged judged = judge();
         double wrong = 0.0, count = 0.0;

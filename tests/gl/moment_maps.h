@@ -15,7 +15,7 @@ protected:
     struct Range {
         double near_m, far_m;
     };
-    /// `depths`: reversed depth, one layer or six faces, of a view from near to far.
+    /// Returns the moments of `depths`: reversed depth, one layer or six faces, of a view from near to far.
     gl::TextureHandle moments_of(const shadow::FilterRow& row, const LightItem& light, gl::TextureHandle depths,
                                  std::uint32_t size_px, Range range) {
         const LightKind kind = light.kind;

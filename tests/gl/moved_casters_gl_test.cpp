@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kFrames = 6;
 
-/// Who moves, and whether maps are kept.
+/// What moves, and whether maps are kept.
 enum class Change { one_moves, all_are_touched, nothing_is_kept };
 
 class MovedCasters : public TracedFrameTest, public ::testing::WithParamInterface<LightKind> {
@@ -22,8 +22,8 @@ protected:
         lamp = add_light_of(GetParam(), {1.0, 5.0, 0.5}, shadow);
         add_camera({.fov_y_rad = 1.0}, {0.0, 7.0, 6.0}, {0.0, -7.0, -6.0});
     }
-    /// One caster moves in every other frame; in `all_are_touched` every caster becomes its twin or itself again in
-    /// each, which for a map is as if it had moved.
+    /// Moves one caster in every other frame. In `all_are_touched` every caster becomes its twin, or itself again, in
+    /// each frame. For a map that is as if it had moved.
     void step(int frame_index, Change change) {
         world.patch<Transform>(mover, [&](Transform& t) { t.translation_m.x = 0.3 * (frame_index / 2); });
         if (change == Change::all_are_touched)
@@ -68,7 +68,7 @@ TEST_P(MovedCasters, AmongStillOnesGiveTheBitsOfAllMovingAndOfNothingKept) {
     for (const ShadowFit fit : {ShadowFit::tight, ShadowFit::stable, ShadowFit::quantised}) {
         if (fit != ShadowFit::tight && !is_sun) continue;
         edit_light(world, lamp, [&](ShadowTuning& t) { t.cascades.fit = fit; });
-        walk(Change::one_moves);  // what fits hold of the last frames is then the same for all
+        walk(Change::one_moves);  // makes fit histories the same for all
         const Walk kept = walk(Change::one_moves);
         EXPECT_GT(kept.drawn, 0u);
         EXPECT_LT(kept.drawn, kept.views) << "some maps were kept, or this shows nothing";

@@ -13,14 +13,14 @@
 #include "systems/shadow/maps/map_cache.h"
 #include "tests/system/test_world.h"
 
-// Memory that runs out for real: a child process under an address-space limit asks for maps that do not fit.
+// Memory that really runs out: a child process under an address-space limit requests maps that do not fit.
 namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kSmall_px = 64, kHuge_px = 8192;
 constexpr rlim_t kHeadroom_bytes = rlim_t{192} << 20;
 
-/// What this process may address now, plus a little.
+/// Limits the address space to what this process uses now, plus kHeadroom_bytes.
 bool limit_memory() {
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
@@ -68,7 +68,7 @@ struct Child {
     std::_Exit(code);  // the exit handlers belong to the parent
 }
 
-/// Exit code 0 and "delivered" if every frame was and every light said what became of its shadow.
+/// Exits with code 0 and "delivered" if every frame was and every light reported what became of its shadow.
 [[noreturn]] void run_out_of_memory() {
     constexpr int kStarved = 45, kWarmUp = 3;
     // Maps must lie in this process's memory, which is what the limit is about.

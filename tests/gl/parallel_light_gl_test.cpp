@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 constexpr glm::uvec2 kWall_px{96, 64};
-constexpr int kDarkestWall = 8;  // of 255: no wall here is so aslant or far
+constexpr int kDarkestWall = 8;  // least level of a wall's pixel, of 255: no wall here is so aslant or far
 
 enum class Setup { torch_at_eye, bulb_at_eye, sun_behind_orthographic, bulb_in_view, torch_nearly_at_eye };
 
@@ -21,7 +21,7 @@ struct Row {
 
 class ParallelLightOf : public FrameTest, public ::testing::WithParamInterface<Row> {
 protected:
-    /// A matt wall that fills the picture, seen along a random direction, and a light for it.
+    /// Adds a matt wall that fills the picture, seen along a random direction, and a light for it.
     void make_world(std::mt19937& random) {
         std::uniform_real_distribution<double> number(-1.0, 1.0);
         start_anew();

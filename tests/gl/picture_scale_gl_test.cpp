@@ -4,7 +4,7 @@
 
 #include "tests/gl/frame_fixture.h"
 
-// A picture is what its scene is, however large, and by lights however strong.
+// Neither the scale of a scene nor the strength of its lights changes its picture, if the exposure follows.
 namespace gnomon {
 namespace {
 
@@ -20,7 +20,7 @@ protected:
         double own_candela = 0.0;       // instead, if above 0
     };
 
-    /// A ground, a box and a lamp, all `scale` times as large.
+    /// Makes a ground, a box and a lamp, all `scale` times as large.
     void make(const Yard& yard) {
         start_anew();
         settings.viewport_px = kYard_px;

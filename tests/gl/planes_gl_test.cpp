@@ -15,11 +15,11 @@ constexpr double kHalf_m = 5.0, kDistance_m = 8.0;
 constexpr float kNear_m = 0.02f;  // so near that a fixed-point depth is worth a decimetre where the plane is
 constexpr int kRounds = 2;
 constexpr std::size_t kManyPixels = 800;
-constexpr float kLit = 1.0f - 1e-6f;  // a sampler's weights sum up to 1 but for rounding
+constexpr float kLit = 1.0f - 1e-6f;  // a sampler's weights sum up to 1 except for rounding
 
 class Planes : public FrameTest, public ::testing::WithParamInterface<LightKind> {
 protected:
-    /// One card that casts, seen from its lit side, and a light of each filter and of the given formats.
+    /// Adds one card that casts, seen from its lit side, and a light of each filter and of the given formats.
     void add_scene(std::mt19937_64& random, std::span<const shadow::DepthFormatRow> formats = shadow::kDepthFormats) {
         std::uniform_real_distribution<double> turn(-1.0, 1.0), lift(0.05, 1.5);
         const double azimuth = 3.14 * turn(random), elevation = lift(random);
@@ -38,7 +38,7 @@ protected:
                                        .maps = {.depth_format = format.id}}));
         add({.enabled = false});
     }
-    /// Pixels that the light of this index reaches, and those of them that its shadow darkens.
+    /// Counts, among the pixels that this light reaches, how many its shadow leaves lit and how many it darkens.
     std::pair<std::size_t, std::size_t> lit_and_dark(std::uint32_t light) {
         const std::vector<float> unshadowed = visibility(static_cast<std::uint32_t>(lights_.size())),
                                  shown = visibility(light);
@@ -47,13 +47,14 @@ protected:
             if (unshadowed[i] > 0.0f) (shown[i] >= kLit ? lit : dark) += 1;
         return {lit, dark};
     }
-    /// Draws the scene anew; how many pixels its shadows darken nowhere.
+    /// Draws the scene and expects no light's shadow to darken a pixel. Returns the number of lit pixels, summed over
+    /// lights.
     std::size_t expect_lit(int round) {
         std::size_t lit_of_all = 0;
         draw();
         for (std::uint32_t i = 0; i < lights_.size(); ++i) {
             const LightReport& report = frame().report().lights[i];
-            // With a lamp near its plane, d16 is coarser than the texels and says so; the plane is lit all the same.
+            // With kNear_m a lamp's d16 is coarser than the texels, which is reported. The plane is lit all the same.
             if (report.reason != Reason::depth_coarse) {
                 EXPECT_EQ(report.state, LightState::rendered) << report.name;
             }
@@ -83,8 +84,8 @@ TEST_P(Planes, AreLitThroughEveryFilterAndFormat) {
     EXPECT_GT(dark_without_bias, kManyPixels) << "without a bias nothing is amiss: the test sees nothing";
 }
 
-// Beside a cube's seams a steep plane's normal leads away along the face's axis: the receiver that the bias moves gets
-// farther, and its taps wider than where it came from.
+// Beside a cube's seams a steep plane's normal leads away along the face's axis. The bias moves the receiver farther
+// away there, which makes its taps wider than at its own place.
 TEST_P(Planes, AreLitWhereTheBiasTakesTheReceiverFartherAway) {
     std::mt19937_64 random(3);
     for (int round = 0; round < kRounds; ++round) {

@@ -29,12 +29,13 @@ glm::dvec3 direction_of(std::uint32_t face, double column, double row) {
     return f.axis_u * u + f.axis_v * v - f.axis_back;
 }
 
-/// 1 where a caster at kWall_m from the light covers the direction: beyond a plane that crosses seams and a corner askew.
+/// Returns 1 where a caster at kWall_m from the light covers the direction, else 0. The caster lies beyond a plane that
+/// crosses seams and a corner askew.
 double covered(const glm::dvec3& direction) { return glm::dot(direction, {0.62, 0.51, -0.37}) > 0.0 ? 1.0 : 0.0; }
 
 class PrefilteredCube : public MomentMapTest {
 protected:
-    /// The first moment of a VSM over that caster; elsewhere nothing.
+    /// Returns each face's blurred moments of a VSM over that caster, two a texel; elsewhere the map is empty.
     std::vector<std::vector<float>> blurred_faces(std::uint32_t size) {
         std::vector<float> depths;
         for (std::uint32_t face = 0; face < 6; ++face)
@@ -56,12 +57,13 @@ protected:
         return faces;
     }
     static double share_of_wall() { return (kWall_m - kLampNear_m) / (std::sqrt(3.0) * kLampFar_m - kLampNear_m); }
-    /// How much of the caster a texel shows: 0 to 1.
+    /// Returns how much of the caster a texel shows, 0 to 1.
     static double shown(const std::vector<std::vector<float>>& faces, std::uint32_t face, std::uint32_t column, std::uint32_t row) {
         const double mean = static_cast<double>(faces[face][2 * (std::size_t{row} * kFace_px + column)]);
         return (1.0 - mean) / (1.0 - share_of_wall());
     }
-    /// The blur over the sphere: a round Gaussian around the direction, as wide as the texel's own, of many directions.
+    /// Returns the blur over the sphere, the mean of many directions. The weights are a round Gaussian around the
+    /// direction, as wide as the texel's own.
     static double over_the_sphere(const glm::dvec3& direction) {
         const glm::dvec3 axis = glm::normalize(direction);
         const glm::dvec3 aside = glm::normalize(glm::cross(axis, glm::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
@@ -130,7 +132,7 @@ TEST_F(PrefilteredCube, HasNoStepWhereTwoFacesMeet) {
 
 class Prefiltered : public BoxTest, public ::testing::WithParamInterface<LightKind> {
 protected:
-    /// A light high on the left that shines on the origin.
+    /// Adds a light high on the left that shines on the origin.
     ecs::Entity add_slanting_light(const LightShadow& shadow, const ShadowTuning& tuning) {
         const glm::dvec3 position(-3.0, 6.0, 2.0);
         const Light light{.kind = GetParam(), .intensity = GetParam() == LightKind::directional ? 10000.0f : 3000.0f, .outer_cone_rad = 0.9f};
@@ -216,8 +218,8 @@ TEST_P(PrefilteredLamp, TwoCastersLetThroughNoMoreThanTheDocumentedShare) {
     for (const shadow::FilterRow* row : prefiltered_rows()) {
         const float most = brightest(i++);
         if (row->id == ShadowFilter::vsm) of_variance = most;
-        // x = 2.8 m between casters, y = 1 m to the receiver: x^2 / (x^2 + 4 y (x + y)) = 0.34 is the most that a variance
-        // lets through.
+        // x = 2.8 m between casters, y = 1 m to the receiver. A variance lets through at most x^2 / (x^2 + 4 y (x + y))
+        // = 0.34.
         EXPECT_LE(most, row->id == ShadowFilter::vsm ? 0.35f : 0.02f) << row->name;
     }
     EXPECT_GT(of_variance, 0.1f) << "no edge above: the test sees nothing";

@@ -11,13 +11,13 @@
 
 namespace gnomon {
 
-/// Asks shaders what they read or reckon: a compute program, with the project's includes, writes it where C++ reads it.
+/// Probes what shaders read or compute: a compute program, with the project's includes, writes it where C++ reads it.
 class ProbeTest : public DeviceTest {
 protected:
     /// Storage buffer that a probe writes.
     static constexpr std::uint32_t kOutBinding = 1;
 
-    /// `count` values that as many work groups of the shader `text` leave, after the commands in `bound`.
+    /// Returns `count` values that `groups` work groups of the shader `text` leave, after the commands in `bound`.
     template <class T>
     std::vector<T> probed(const std::string& text, std::uint32_t groups, std::size_t count, gl::CommandList bound) {
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
@@ -40,7 +40,7 @@ protected:
         return found;
     }
 
-    /// Records that shaders read as texels. Lists may write to them.
+    /// Makes a buffer of records that shaders read as texels. Lists may write to it.
     template <class T>
     gl::BufferHandle texels_of(const std::vector<T>& records) {
         return keep(device().create_buffer(

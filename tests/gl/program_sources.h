@@ -22,7 +22,7 @@ inline bool reads_triangles(const shadow::FilterRow& filter) { return filter.sto
 
 inline bool reads_moments(const shadow::FilterRow& filter) { return filter.moments; }
 
-/// Filters that read a map, and nothing else.
+/// Returns the filters that read a map, and nothing else.
 inline std::vector<shadow::FilterRow> map_filters() {
     std::vector<shadow::FilterRow> rows;
     for (const shadow::FilterRow& row : shadow::filter_table())
@@ -45,8 +45,9 @@ inline bool is_area_row(LightKind kind, const shadow::FilterRow& filter) {
     return kind == LightKind::rectangle ? sees_source || filter.id == ShadowFilter::hard : filter.id == ShadowFilter::pcss;
 }
 
-/// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns and
-/// points in perspective, suns warped; and of those that ask by rays, with and without masked casters and maps.
+/// Returns every row of (light kind × filter), with and without fading or a manual bias, and each kind unshadowed. Suns
+/// and points have rows in perspective, suns also warped ones. Filters by triangles have rows with masked casters,
+/// prefiltered ones rows by a pixel's footprint. Filters by rays have rows with and without masked casters and maps.
 inline std::vector<shadow::ShaderKey> all_rows() {
     std::vector<shadow::ShaderKey> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
@@ -114,8 +115,8 @@ inline std::vector<shadow::ShaderKey> all_rows() {
     return rows;
 }
 
-/// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options. All
-/// of them for "bias", which asks most of a lookup; for other views one per kind.
+/// Returns the rows with different lookups: the first filter of every way to read a map, for all kinds and options.
+/// "bias" gets all of them, since it needs most of a lookup; other views get one per kind.
 inline std::vector<shadow::ShaderKey> lookup_rows(std::string_view view) {
     std::vector<shadow::ShaderKey> kept, known;
     for (const shadow::ShaderKey& row : all_rows()) {
@@ -131,8 +132,8 @@ inline std::vector<shadow::ShaderKey> lookup_rows(std::string_view view) {
     return kept;
 }
 
-/// The sources of every program, as the lighting system itself hands them to a device; the depth programs', those
-/// of prefiltered maps and the debug views'.
+/// Returns the sources of every program. The lighting system's are as it hands them to a device. The depth programs',
+/// those of prefiltered maps and those of debug views follow.
 inline std::vector<gl::ProgramDesc> all_programs() {
     std::vector<gl::ProgramDesc> programs;
     gl::RecordingDevice device;

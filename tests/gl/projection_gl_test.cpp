@@ -3,8 +3,8 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/gl/box_fixture.h"
 
-// A sun that projects from an eye, and depth ranges that are given: the shadows are those of a lamp at the eye, inside
-// the range that was given.
+// A sun that projects from an eye, and depth ranges that are given. The shadows are as of a lamp at the eye, inside the
+// given range.
 namespace gnomon {
 namespace {
 
@@ -14,21 +14,21 @@ constexpr glm::dvec3 kDown{0.0, -1.0, 0.0};
 
 class ProjectionTest : public BoxTest {
 protected:
-    /// A sun straight above, whose eye stands at kEye_m over the origin, given how high what is seen reaches.
+    /// Adds a sun straight above with its eye kEye_m over the origin. `seen_height_m`: how high reaches what is seen.
     ecs::Entity add_sun(ShadowTuning::Projection projection, double seen_height_m,
                         ShadowFilter filter = ShadowFilter::automatic) {
         projection.eye_distance_m = static_cast<float>(kEye_m - 0.5 * seen_height_m);
         return add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, kDown,
                          {.filter = filter, .resolution_px = 1024}, {.projection = projection});
     }
-    /// The frame's visibility against a point source at the eye.
+    /// Judges the frame's visibility against a point source at the eye.
     boxes::Verdict judged_from_eye() {
         LightItem lamp;
         lamp.kind = LightKind::point;
         lamp.position_ws_m = {0.0, kEye_m, 0.0};
         return boxes::judge(truth, frame().snapshot().consumers.front(), lamp, visibility());
     }
-    /// Share of the field that is lit, among the pixels whose ray meets the ground within the rectangle.
+    /// Returns the lit share of the field, among the pixels with a ray that meets the ground within the rectangle.
     double lit_share(const std::vector<float>& field, const glm::dvec2& from, const glm::dvec2& to) {
         const ConsumerItem& camera = frame().snapshot().consumers.front();
         std::size_t lit = 0, all = 0;
@@ -106,7 +106,7 @@ enum class DepthVariant { flat_sun, perspective_sun, spot, point };
 
 class GivenRange : public ProjectionTest, public ::testing::WithParamInterface<DepthVariant> {
 protected:
-    /// What is seen reaches up to 6 m in these scenes.
+    /// Adds the light of this variant. What is seen reaches up to 6 m in these scenes.
     void add(float near_m, float far_m) {
         ShadowTuning::Projection projection{.eye_angle_rad = 1.6f, .near_m = near_m, .far_m = far_m};
         const LightShadow shadow{.resolution_px = 1024};
@@ -121,7 +121,7 @@ protected:
             add_light({.kind = LightKind::point, .intensity = 3000.0f}, place_m, kDown, shadow,
                       {.projection = projection});
     }
-    /// Ground; a box high up on the left; on the right a card at 4 m under a smaller card at 6 m.
+    /// Adds a ground; a box high up on the left; on the right a card at 4 m under a smaller card at 6 m.
     void add_scene() {
         add_ground(6.0);
         add_box({-3.0, 3.0, -1.0}, {-2.0, 4.0, 1.0});

@@ -7,7 +7,8 @@
 #include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
-/// Where in a picture a list's rays lie: shaders say of each place one texel of their own, and of that texel the place.
+/// Where in a picture a list's rays lie. Shaders give each place a texel of its own, and from that texel find the
+/// place.
 namespace gnomon {
 namespace {
 

@@ -11,7 +11,7 @@
 #include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
-// The C++ and the GLSL views of what is read as texels: no interface of a program tells those. Shaders find in each
+// The C++ and the GLSL views of what is read as texels: no interface of a program describes them. Shaders find in each
 // member what C++ wrote into it.
 namespace gnomon {
 namespace {
@@ -22,8 +22,8 @@ using visibility::RayInstance;
 using visibility::RayTop;
 
 constexpr std::uint32_t kTexelRecords = 5;
-/// Words of 32 bits of a node, a triangle, the upper tree's head, a node of it and a part of an instance, as the probe
-/// writes them.
+/// Words of 32 bits, as the probe writes them. They are of a node, a triangle, the upper tree's head, a node of it and
+/// a part of an instance.
 constexpr std::size_t kTexelWords = 8 + 12 + 8 + 8 + 17;
 
 const std::string kTexelProbe =

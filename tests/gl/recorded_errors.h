@@ -15,7 +15,7 @@ struct ErrorCounts {
     bool operator==(const ErrorCounts&) const = default;
 };
 
-/// By the names of light and row.
+/// Counts by the names of light and row.
 using ErrorsByRow = std::map<std::pair<std::string, std::string>, ErrorCounts>;
 
 struct RecordedErrors {
@@ -23,14 +23,14 @@ struct RecordedErrors {
     ErrorsByRow rows;
 };
 
-/// Nothing, if the file cannot be read.
+/// Returns what a file records; nothing if it cannot be read.
 RecordedErrors read_errors(const std::filesystem::path& file);
 void write_errors(const std::filesystem::path& file, const RecordedErrors& errors);
 
-/// A line for each count that is higher than recorded, and for what cannot be compared: a row that is in one of the two
-/// alone, or whose scored pixels are others, for which the truth has changed.
+/// Returns a line for each count that is higher than recorded, and for each row that cannot be compared. Such a row is
+/// in one of the two alone, or has another number of scored pixels, since the truth has changed.
 std::vector<std::string> what_rose(const ErrorsByRow& recorded, const ErrorsByRow& found);
-/// A line for each count that is lower.
+/// Returns a line for each count that is lower than recorded.
 std::vector<std::string> what_fell(const ErrorsByRow& recorded, const ErrorsByRow& found);
 
 }  // namespace gnomon::test

@@ -4,8 +4,8 @@
 #include "tests/economy/both_ways.h"
 #include "tests/gl/traced_frame_fixture.h"
 
-/// Maps that show casters where they were (LightShadow::refresh_error_px): edges are off by no more than is said, and
-/// what moved does not darken itself.
+/// Maps that show casters where they were (LightShadow::refresh_error_px). Edges are off by no more than is reported,
+/// and what moved does not darken itself.
 namespace gnomon {
 namespace {
 
@@ -29,7 +29,7 @@ protected:
                             {.filter = GetParam().filter, .resolution_px = 1024, .refresh_error_px = refresh_error_px});
         add_camera({.fov_y_rad = 0.5}, {0.0, 14.0, 14.0}, {0.0, -14.0, -14.0});
     }
-    /// Away from the light, so that its old faces stand before its new ones; and turned.
+    /// Moves the caster away from the light, so that its old faces stand before its new ones, and turns it.
     void place_mover(int frame_index) {
         world.patch<Transform>(mover, [&](Transform& t) {
             t.translation_m = glm::dvec3(0.5, 1.1, 0.0) + way_m * static_cast<double>(frame_index);
@@ -69,7 +69,7 @@ TEST_P(RefreshGl, ShowsEdgesWhereItIsSaidAndNoMoverThatDarkensItself) {
         held += is_held ? 1 : 0;
         const Judged judged = judge();
         const oracle::EdgeDisplacement& edge = judged.metrics.edge;
-        // What maps of things where they are may miss is another test's (truth_edges_gl_test.cpp).
+        // Another test covers what maps of casters at their present places may miss (truth_edges_gl_test.cpp).
         if (is_held) {
             EXPECT_LE(edge.max_px, report().predicted_error_px);
         }
@@ -107,7 +107,7 @@ TEST_P(RefreshGl, IsOffByMoreThanItsTexelsExplainWhereMuchIsAllowed) {
     EXPECT_GT(worst_px, exact_px) << "or nothing of it need be told";
 }
 
-/// Looked up with the offset for what moved, and without.
+/// Looks shadows up with the offset for what moved, and without.
 TEST_P(RefreshGl, MoversWouldDarkenThemselvesWithoutTheOffsetForWhatMoved) {
     if (GetParam().filter != ShadowFilter::hard) GTEST_SKIP() << "the casters' own triangles may know better";
     make_world(kAllowed_px);

@@ -5,7 +5,8 @@
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"
 
-// The two figures that a light states of its accuracy: neither is ever broken, and neither is idle.
+// The two figures that a light states of its accuracy: neither is ever exceeded, and neither is so large that it means
+// little.
 namespace gnomon {
 namespace {
 

@@ -6,7 +6,7 @@ namespace gnomon {
 /// A room around the origin, for point lights in it.
 class RoomTest : public BoxTest {
 protected:
-    /// Six walls at this distance along the axes, facing inward.
+    /// Adds six walls at this distance along the axes, facing inward.
     void add_room(double half_m) {
         for (int axis = 0; axis < 3; ++axis)
             for (const double side : {-1.0, 1.0}) {

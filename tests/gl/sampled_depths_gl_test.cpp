@@ -43,7 +43,7 @@ struct Counts {
     std::array<std::uint32_t, kDepthBins> sure{}, either{};
 };
 void count(double distance_m, Counts& counts) {
-    constexpr double kRounding = 1e-6;  // of a few float operations
+    constexpr double kRounding = 1e-6;  // steps that a few float operations may be off by
     const double at = 4.0 * std::log2(distance_m) - kFirstDepthStep;
     const auto low = static_cast<std::size_t>(std::clamp(std::floor(at - kRounding), 0.0, kDepthBins - 1.0));
     const auto high = static_cast<std::size_t>(std::clamp(std::floor(at + kRounding), 0.0, kDepthBins - 1.0));

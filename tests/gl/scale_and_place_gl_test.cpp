@@ -27,7 +27,7 @@ void lamp_and_spots(World& w) {
     w.spot({-2.0, 3.0, 1.0}, {0.4, -1.0, -0.2}, 1.2);  // so wide that it is faces of a cube
 }
 
-/// A sun of each fit, one with distances of its own, one with a constant bias, and local lights.
+/// Adds a sun of each fit, one with distances of its own, one with a constant bias, and local lights.
 void all_lights(World& w) {
     const auto metres = [&](double m) { return static_cast<float>(m * w.scale); };
     for (const char* fit : kFits) {
@@ -50,7 +50,7 @@ protected:
         return all;
     }
 
-    /// At least 99.99 % of the pixels have the same visibility, here and there.
+    /// Expects the same visibility here and there in at least 99.99 % of the pixels.
     void expect_same(const std::vector<std::vector<float>>& here, const std::vector<std::vector<float>>& there) {
         constexpr double kMostChanged = 1e-4;
         ASSERT_EQ(here.size(), there.size());
@@ -112,7 +112,7 @@ TEST_F(ScaleAndPlaceGl, LocalLightsAndATightSunShowTheSameAHundredMillionMetresA
     }
 }
 
-/// One cascade: several have texels of sizes that no distance is whole in.
+/// Adds a sun with one cascade: no distance is whole in the texel sizes of several.
 void one_cascade(World& w, const char* fit) {
     boxes(w);
     w.settings = {fit, kSize, "cascades=1"};

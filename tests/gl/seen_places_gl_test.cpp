@@ -13,8 +13,8 @@
 #include "tests/gl/sheet_worlds.h"
 #include "tests/unit/math/random_seed.h"
 
-/// Where a pixel looks at a triangle's plane, as maps of sheets are asked: in float, off by no more than it says from
-/// where double finds it. Random worlds, cameras, triangles and pixels, the triangles' own and others.
+/// Where a pixel looks at a triangle's plane, as maps of sheets are queried. The place in float is off from the one in
+/// double by no more than its own bound. Random worlds, cameras, triangles and pixels, the triangles' own and others.
 namespace gnomon {
 namespace {
 
@@ -29,10 +29,10 @@ struct Asked {
     glm::uvec4 pixel{0u};
 };
 struct Answer {
-    float apart_m = 0.0f;  // float's place and double's
-    float error_m = 0.0f;  // that there may be at most
+    float apart_m = 0.0f;  // distance of float's place from double's
+    float error_m = 0.0f;  // bound on that distance
     float distance_m = 0.0f;
-    float looked = 0.0f;  // 1; keeps what was not drawn apart
+    float looked = 0.0f;  // 1 in what was drawn
 };
 
 ConsumerItem random_camera(Random& random, const glm::dvec3& offset_m) {
@@ -52,7 +52,7 @@ ConsumerItem random_camera(Random& random, const glm::dvec3& offset_m) {
 
 class SeenPlaces : public GlTest {
 protected:
-    /// Pixels and the triangles that they may show.
+    /// Returns pixels, each with a triangle that it may show.
     std::vector<Asked> ask_about(const QueryScene& scene, const GpuScene& gpu, const ConsumerItem& camera,
                                  Random& random, std::size_t count) const {
         const double half_height = camera.projection == CameraProjection::orthographic
@@ -134,7 +134,7 @@ protected:
     }
 
 private:
-    /// rounds: false: as if nothing but a place rebuilt in float did.
+    /// Returns the program. `rounds`: false: as if nothing rounded except a place that is rebuilt in float.
     gl::ProgramHandle program(bool rounds) {
         gl::ProgramHandle& held = programs_[rounds ? 1 : 0];
         if (held) return held;
@@ -169,7 +169,7 @@ struct SeenTally {
     std::size_t places = 0, wrong = 0, known = 0, near = 0;
 };
 
-/// As far off as a thousandth of a millimetre per metre is no matter to any texel.
+/// An error of a thousandth of a millimetre per metre matters to no texel.
 constexpr float kOfNoMatter = 1.0e-6f;
 
 SeenTally tally_of(const std::vector<Answer>& answers) {

@@ -15,7 +15,7 @@
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/program_sources.h"
 
-// What the linker says about each block against the C++ struct whose bytes it is fed.
+// Compares the layout that the linker reports for each block with the C++ struct that provides the block's bytes.
 namespace gnomon {
 namespace {
 
@@ -27,7 +27,7 @@ struct Block {
     GLenum interface;  // GL_UNIFORM_BLOCK or GL_SHADER_STORAGE_BLOCK
     std::string name;
     GLint binding;
-    std::size_t size;  // of the struct; of one element for a storage block
+    std::size_t size;  // bytes of the struct, or of one element of a storage block
     std::vector<Member> members;
 };
 
@@ -189,7 +189,7 @@ std::vector<Block> expected_blocks() {
     };
 }
 
-/// A program compiled apart from the device, whose interface tells no names.
+/// Program that is compiled apart from the device, since a device's interface gives no GL names.
 class LinkedProgram {
 public:
     explicit LinkedProgram(const gl::ProgramDesc& desc) : name_(glCreateProgram()) {
@@ -206,7 +206,7 @@ public:
     LinkedProgram& operator=(const LinkedProgram&) = delete;
     bool linked() const { return linked_; }
 
-    /// Empty if the program has no such resource.
+    /// Returns a property of a resource; empty if the program has no such resource.
     std::optional<GLint> property(GLenum interface, const std::string& resource, GLenum what) const {
         const GLuint index = glGetProgramResourceIndex(name_, interface, resource.c_str());
         if (index == GL_INVALID_INDEX) return std::nullopt;
@@ -251,7 +251,7 @@ void expect_block(const LinkedProgram& program, const Block& block) {
         EXPECT_EQ(program.property(variables, member.name, GL_OFFSET), static_cast<GLint>(member.offset))
             << member.name;
         if (uniform || member.name.find('[') == std::string::npos) continue;
-        // An array of vectors tells its stride itself, an array of structs through its members.
+        // An array of vectors has a stride itself, an array of structs has one through its members.
         const GLenum stride = member.name.back() == ']' ? GL_ARRAY_STRIDE : GL_TOP_LEVEL_ARRAY_STRIDE;
         EXPECT_EQ(program.property(variables, member.name, stride), static_cast<GLint>(block.size)) << member.name;
     }

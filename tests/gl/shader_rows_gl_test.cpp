@@ -7,7 +7,7 @@
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/program_sources.h"
 
-// Every program that a frame can ask for, on the real compiler. The fixture fails on any driver message.
+// Every program that a frame can need, on the real compiler. The fixture fails on any driver message.
 namespace gnomon {
 namespace {
 
@@ -28,15 +28,15 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto by_triangles = static_cast<std::size_t>(
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_triangles));
     constexpr std::size_t kMaskedOrNot = 2;
-    // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an
-    // output; blended surfaces, catchers, fog, verdicts and rays have their own, masked or not.
+    // Rows of rays alone: as every row, and aimed points. With sheets, one program per kind and output reads what is
+    // found. Blended surfaces, catchers, fog, verdicts and rays have their own, masked or not.
     const std::size_t by_rays = (kPlain + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters) + kArea;
     const std::size_t with_sheets = 2 * kinds + 5 * by_rays;
     constexpr std::size_t kOutputs = 5, kDepth = 6, kCompute = 5, kBlur = 1, kSources = 3;
     // Surfaces, with places or without, and blended ones: lit or unlit, coloured or not. Catchers, coloured or not, and
     // their shares. Luminance, and tone curve with a background or without. What fog takes.
     constexpr std::size_t kCommon = 3 * 2 * 2 + 3 + 3 + 1;
-    // Those by a pixel's footprint, too, and those of masked casters.
+    // Rows by a pixel's footprint count, too, and so do rows of masked casters.
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays +
                              kAreaRows + kAreaPrefiltered + kAreaByTriangles;
     std::size_t views_programs = 1;  // lines

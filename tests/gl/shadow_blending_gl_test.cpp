@@ -9,7 +9,7 @@ protected:
     std::uint32_t glass(float alpha) {
         return add_material({.name = "pane", .base_colour = {0.2f, 0.9f, 0.4f, alpha}, .metallic = 0.0f, .roughness = 0.8f, .alpha_mode = assets::AlphaMode::blend});
     }
-    /// A texture whose left half is a hole.
+    /// Adds a masked material with a texture that is a hole on the left.
     std::uint32_t half_cut() {
         assets::Texture texture{.name = "half", .width = 64, .height = 64, .rgba = {}, .linear_filter = false};
         for (std::uint32_t i = 0; i < 64 * 64; ++i) {

@@ -1,7 +1,7 @@
 #include "tests/gl/catcher_fixture.h"
 
-// Shadow catchers against rays, pixel by pixel: their alpha is the share of their light that casters take. The alpha of
-// the picture around them.
+// Shadow catchers against rays, pixel by pixel. Their alpha is the share of their light that casters take. The picture
+// around them has an alpha, too.
 namespace gnomon {
 namespace {
 

@@ -11,7 +11,7 @@ constexpr std::size_t kSomeOfFace = 200;
 
 class ShadowCube : public RoomTest {
 protected:
-    /// A camera near the wall behind, aside of the light so that casters do not hide their shadows.
+    /// Adds a camera near the wall behind, aside of the light so that casters do not hide their shadows.
     void look(const glm::dvec3& direction) {
         const glm::dvec3 aside(direction.y + direction.z, direction.z + direction.x, direction.x + direction.y);
         add_camera({.fov_y_rad = 1.6}, -0.85 * kRoomHalf_m * direction + 0.5 * kRoomHalf_m * aside, direction);
@@ -25,7 +25,7 @@ protected:
         d[GetParam() / 2] = GetParam() % 2 == 0 ? 1.0 : -1.0;
         return d;
     }
-    /// A third of the table: each filter is seen along both directions of one axis.
+    /// Returns a third of the table: each filter is seen along both directions of one axis.
     static std::vector<shadow::FilterRow> filters() {
         std::vector<shadow::FilterRow> some;
         for (const shadow::FilterRow& row : shadow::filter_table())
@@ -71,7 +71,7 @@ TEST_P(ShadowCubeAlong, CastersAcrossEverySeamAndCornerDarkenBothSides) {
 }
 
 TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
-    // Off the middle, so that the cube's seams run over the walls; within the filter of the room's own edges a
+    // Off the middle, so that the cube's seams run over the walls. Within a filter's reach of the room's own edges a
     // neighbouring wall may darken, which the margin leaves out.
     truth.margin_m = 0.4;
     add_room(kRoomHalf_m);
@@ -89,8 +89,8 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
     const double least_m = truth.margin_m;
     for (std::uint32_t light = 0; light < filters().size(); ++light) {
         SCOPED_TRACE(filters()[light].name);
-        // The cube lies askew to the room: in its creases a tap that leaves the room is behind the other wall. One that
-        // is compared on the receiver's plane is not allowed to mind.
+        // The cube lies askew to the room: in its creases a tap that leaves the room is behind the other wall. A tap
+        // that is compared on the receiver's plane must not be affected.
         const bool on_plane = filters()[light].reading == shadow::MapReading::depths;
         const double reach =
             static_cast<double>(shadow::filter_settings(filters()[light], LightItem{}, kCoarse_px).widest_texel);

@@ -11,7 +11,7 @@ constexpr double kMostWrong = 0.02;
 
 class ShadowLayersGl : public TracedFrameTest, public ::testing::WithParamInterface<LightKind> {
 protected:
-    /// Two halves of a ground and two boxes above each; who is of which layer is the test's.
+    /// Adds two halves of a ground and two boxes above each. Their layers are up to the test.
     void make_world() {
         const std::uint32_t box = add_analysed(game::make_box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
         const std::uint32_t ground = add_mesh(game::make_card(glm::dvec3(0.0), {0.0, 0.0, 8.0}, {4.0, 0.0, 0.0}));
@@ -36,7 +36,7 @@ protected:
         for (const ecs::Entity e : red_boxes) set_caster(e, kRed);
         for (const ecs::Entity e : blue_boxes) set_caster(e, kBlue);
     }
-    /// As drawn, but with every mask open: what a pipeline without layers would have to show.
+    /// Returns the scene as drawn, but with every mask open: what a pipeline without layers would have to show.
     SceneSnapshot without_layers() {
         SceneSnapshot scene = frame().snapshot();
         for (InstanceItem& item : scene.instances) item.cast_layers = item.receive_layers = kAllShadowLayers;
@@ -49,7 +49,7 @@ protected:
         EXPECT_LT(drawn.metrics.fraction(drawn.metrics.wrong), kMostWrong) << what;
         EXPECT_GT(drawn.metrics.scored, 10000u) << what;
     }
-    /// Negative control: the masks matter here, so that a pipeline that knows none would fail.
+    /// Expects the masks to matter here, so that a pipeline without them would fail (negative control).
     void expect_masks_matter(const char* what) {
         const oracle::Metrics open = judge(0, without_layers()).metrics;
         EXPECT_GT(open.leak, 500u) << what;

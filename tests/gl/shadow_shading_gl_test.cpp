@@ -7,7 +7,8 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-/// shaders/lighting/post/tonemap.frag and the target's encoding, for a fixed exposure.
+/// Returns a level of the picture, 0 to 255: shaders/lighting/post/tonemap.frag and the target's encoding, for a fixed
+/// exposure.
 int encoded(float luminance, float ev) {
     constexpr float kWhite = 8.0f, kCalibration = 1.2f;
     const float x = luminance / (kCalibration * std::exp2(ev));
@@ -24,7 +25,8 @@ struct Finish {
 
 class ShadowShading : public BoxTest {
 protected:
-    /// Pixels of the picture (top row first) that every light's oracle says are `wanted`.
+    /// Returns the pixels for which every light's oracle claims `wanted`, as places of their first bytes in the picture
+    /// (top row first).
     std::vector<std::size_t> pixels_claimed(boxes::Claim wanted, std::uint32_t light_count) {
         std::vector<std::size_t> found;
         const SceneSnapshot& scene = frame().snapshot();

@@ -28,7 +28,7 @@ std::vector<Row> all_table_rows() {
 
 class ShadowShape : public BoxTest {
 protected:
-    /// A light of this kind high on the left that shines on `at`.
+    /// Adds a light of this kind high on the left that shines on `at`.
     ecs::Entity add_slanting_light(LightKind kind, const glm::dvec3& at = glm::dvec3(0.0), ShadowFilter filter = ShadowFilter::hard) {
         const glm::dvec3 position(-3.0, 6.0, 2.0);
         const Light light{.kind = kind, .intensity = kind == LightKind::directional ? 10000.0f : 3000.0f, .outer_cone_rad = 0.9f};
@@ -80,7 +80,7 @@ TEST_P(ShadowShapeOfKind, OfAMirroredInstanceIsMirrored) {
     look_down(5.0);
     draw();
     expect_true(kSome, 10 * kSome);
-    // The oracle would find the shadow of the box as it was before it was mirrored in the wrong place.
+    // Without the mirroring the oracle finds the box's shadow in the wrong place.
     truth.boxes.front().basis = glm::dmat3(1.0);
     EXPECT_GT(judged().wrong, kSome);
 }

@@ -10,7 +10,7 @@
 /// Lights over such worlds, and views of them.
 namespace gnomon::test {
 
-/// All faces around a lamp.
+/// Returns views of all six faces around a lamp.
 inline std::vector<shadow::ShadowView> cube_views(const LightItem& light, const shadow::PerspectiveRange& range,
                                                   std::uint32_t size_px) {
     std::vector<shadow::ShadowView> views;
@@ -87,13 +87,13 @@ inline View point_view(const QueryScene& scene, Random& random) {
     return view;
 }
 
-/// `least_depth_m`: of a sun's map, to either side.
+/// Returns a random light of this kind, and its views. `least_depth_m`: depth of a sun's map, to either side, at least.
 inline View view_of(LightKind kind, const QueryScene& scene, Random& random, double least_depth_m = 12.0) {
     if (kind == LightKind::directional) return sun_view(scene, random, least_depth_m);
     return kind == LightKind::spot ? spot_view(scene, random) : point_view(scene, random);
 }
 
-/// Whether any of the maps holds it.
+/// Returns whether any of the maps shows the place.
 inline bool is_shown(const std::vector<shadow::ShadowView>& views, const glm::dvec3& at_ws_m) {
     return std::any_of(views.begin(), views.end(), [&](const shadow::ShadowView& view) {
         const glm::dvec4 p = glm::dmat4(view.clip_from_anchor) * glm::dvec4(at_ws_m - view.pose.anchor_ws_m, 1.0);

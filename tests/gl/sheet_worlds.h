@@ -10,7 +10,7 @@
 #include "tests/unit/rays/triangle_soup.h"
 #include "tests/unit/visibility/query_scene.h"
 
-/// Worlds and views that try to break what sheets say of a texel.
+/// Worlds and views that try to break what sheets find about a texel.
 namespace gnomon::test {
 
 using Random = std::mt19937_64;
@@ -31,7 +31,7 @@ inline glm::dvec3 direction(Random& random) {
 
 inline constexpr double kWorld_m = 6.0;  // half of its side
 
-/// A turn, at times by right angles alone; stretched, mirrored.
+/// Returns a random basis: at times turned, stretched or mirrored.
 inline glm::dmat3 random_basis(Random& random, double size) {
     glm::dmat3 basis(size);
     if (!chance(random, 0.4))
@@ -45,8 +45,8 @@ inline std::uint32_t add_shape(QueryScene& scene, const game::Shape& shape, std:
     return scene.add_mesh(shape.positions, shape.indices, material);
 }
 
-/// A ground, and on, in and above it boxes in contact, spheres and rings that interpenetrate, cloths, upright cards
-/// along the world's axes, thin bars, soups, masked cards.
+/// Returns a ground, and on, in and above it boxes in contact, spheres and rings that interpenetrate, and cloths. There
+/// are also upright cards along the world's axes, thin bars, soups and masked cards.
 inline QueryScene sheet_world(Random& random, const glm::dvec3& offset_m) {
     QueryScene scene;
     scene.offset_m = offset_m;
@@ -95,8 +95,8 @@ inline QueryScene sheet_world(Random& random, const glm::dvec3& offset_m) {
     return scene;
 }
 
-/// A ground below needles that lie about as flat, down to none of a texel's width: what a rasteriser makes of them may
-/// be anything.
+/// Returns a ground below needles that lie nearly flat. They may be so narrow that they have next to none of a texel's
+/// width: a rasteriser may make anything of them.
 inline QueryScene needle_world(Random& random) {
     QueryScene scene;
     scene.place_floor(2.0 * kWorld_m);
@@ -118,8 +118,8 @@ inline QueryScene needle_world(Random& random) {
     return scene;
 }
 
-/// Where a triangle shows at a corner between texels, or next to it: what is farthest from any texel's middle. False:
-/// it shows at none.
+/// Finds a place of a triangle at a random corner between texels, or next to it. Such a place is farthest from any
+/// texel's middle. False: the triangle does not show there.
 inline bool corner_place(const shadow::ShadowView& view, std::uint32_t size_px, const glm::dvec3 (&corners_ws_m)[3],
                          Random& random, glm::dvec3& at_ws_m) {
     glm::dvec4 clip[3];
@@ -152,7 +152,8 @@ inline bool corner_place(const shadow::ShadowView& view, std::uint32_t size_px, 
     return true;
 }
 
-/// Places on surfaces: anywhere on them, along their edges, at corners between texels. In double on the triangle.
+/// Returns places on surfaces: anywhere on them, along their edges, at corners between texels. They lie on their
+/// triangles in double.
 inline std::vector<visibility::Place> places_on(const QueryScene& scene, std::span<const shadow::ShadowView> views,
                                                 std::uint32_t size_px, Random& random, std::size_t count) {
     std::vector<visibility::Place> places;

@@ -19,15 +19,16 @@ inline constexpr double kUnitRoundoff = 5.9604644775390625e-8;  // 2^-24, of a f
 
 enum class Verdict : std::uint8_t { lit, dark, uncertain };
 
-/// Sheets of views put together by hand, and what they say of places, by the shaders' own text.
+/// Sheets of views put together by hand, and their verdicts on places, by the shaders' own text.
 class SheetsTest : public GlTest {
 protected:
     struct Maps {
         gl::TextureHandle depths, triangles, second, bounds;
         gl::BufferHandle ends;
     };
-    /// Whom to ask: as the light's middle sees it, or all of its source, or the latter without looking beside the
-    /// middle; or how far toward the middle anything may stand.
+    /// Query of the maps. `middle`: verdict as the light's middle sees a place. `source`: as all of its source does.
+    /// `source_without_reach`: the same without looking beside the middle. `reach`: how far toward the middle anything
+    /// may stand.
     enum class Ask : std::uint8_t { middle, source, source_without_reach, reach, count };
     /// One light with its views, before and after its maps are drawn.
     struct Drawn {
@@ -140,7 +141,7 @@ protected:
         device().destroy(maps.ends);
     }
 
-    /// Of places relative to the scene's first consumer, each with how far off it may be.
+    /// Returns the verdicts on places relative to the scene's first consumer. w: how far off the place may be, m.
     std::vector<Verdict> verdicts(const Drawn& drawn, LightKind kind, const std::vector<glm::vec4>& places_ca,
                                   bool receivers_cast, bool margins, Ask ask = Ask::middle) {
         std::vector<Verdict> verdicts;
@@ -149,7 +150,7 @@ protected:
         return verdicts;
     }
 
-    /// sheet_reach() of such places.
+    /// Returns sheet_reach() of such places: metres toward a sun, share of the way to a lamp.
     std::vector<float> reaches(const Drawn& drawn, LightKind kind, const std::vector<glm::vec4>& places_ca,
                                bool margins) {
         return asked(drawn, kind, places_ca, true, margins, Ask::reach);

@@ -5,7 +5,7 @@
 #include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 
-/// What sheets are certain of is so: random worlds and views, every certain place asked of rays in double.
+/// What sheets are certain of is so: in random worlds and views, rays in double judge every certain place.
 namespace gnomon {
 namespace {
 
@@ -21,20 +21,20 @@ using test::view_of;
 /// All the way to the light: in shaders/shadow/filters/exact/classify.glsl.
 constexpr float kNoReach = 3.0e38f;
 
-/// Where a place's reach ends.
+/// Returns where a place's reach ends. `reach`: metres toward a sun, share of the way to a lamp.
 glm::dvec3 end_of_reach(const LightItem& light, const glm::dvec3& at_ws_m, double reach) {
     const bool sun = light.kind == LightKind::directional;
     return at_ws_m + reach * (sun ? light.rotation_ws[2] : light.position_ws_m - at_ws_m);
 }
 
-/// Of places that maps hold.
-/// A few worlds may happen to be such as leave nearly all to rays. Then so many times as many are played.
+/// Factor by which more worlds than planned may be played. A few worlds may happen to leave nearly all places to rays.
 constexpr int kSizeHysteresis = 8;
 
+/// Counts of places. `places`: only what the maps show.
 struct Tally {
     std::size_t places = 0, lit = 0, dark = 0, wrong = 0;
-    std::size_t bounded = 0, beyond = 0;  // whose reach is known; and those before which something stands beyond it
-    /// It is no use to be certain of nothing.
+    std::size_t bounded = 0, beyond = 0;  // places with a known reach; reaches that end short of a caster
+    /// Returns whether the sheets are certain of enough: certainty about nothing proves nothing.
     bool is_of_use() const { return bounded > places / 5 && lit > places / 50 && dark > places / 20; }
     double uncertain_percent() const {
         return 100.0 * static_cast<double>(places - lit - dark) / static_cast<double>(places);
@@ -43,7 +43,7 @@ struct Tally {
 
 class Sheets : public SheetsTest, public ::testing::WithParamInterface<LightKind> {
 protected:
-    /// One random world under one random light.
+    /// Plays one random world under one random light.
     void play(Random& random, std::size_t count, bool margins, Tally& tally) {
         glm::dvec3 offset_m(0.0);
         if (chance(random, 0.2)) offset_m = {1.0e8, -3.0e7, 5.0e7};
@@ -117,8 +117,8 @@ TEST_P(Sheets, AreRightWhereTheyAreCertain) {
     EXPECT_TRUE(tally.is_of_use());
 }
 
-/// A quad along a sliver is narrower than a point: where rounding leaves it open whether the sliver meets a texel, the
-/// quad may not ask there.
+/// Checks that points give no bound lower than quads do, and few higher. A quad along a sliver is narrower than a
+/// point. It may miss a texel where rounding leaves it open whether the sliver meets it.
 TEST_P(Sheets, SayNoLessWherePointsCoverThemThanWhereQuadsDo) {
     const std::uint64_t seed = print_seed();
     std::size_t drawn_as_points = 0, drawn_as_quads = 0, texels = 0, less = 0, more = 0;
@@ -169,7 +169,7 @@ TEST_P(Sheets, AreRightBelowNeedles) {
     EXPECT_TRUE(is_of_use()) << tally.lit + tally.dark << " of " << tally.places;
 }
 
-/// Boxes, balls and a cloth on a ground, seen whole: how much is left for rays.
+/// Measures how much is left for rays of boxes, balls and a cloth on a ground, seen whole.
 TEST_P(Sheets, LeaveLittleUncertainInATidyWorld) {
     QueryScene scene;
     scene.place_floor(12.0);

@@ -13,8 +13,8 @@
 #include "tests/oracle/reference_tracer.h"
 #include "tests/source_paths.h"
 
-/// What sheets leave for rays in pictures of the built-in scene and of Sponza, and that they are right about the rest:
-/// one map over all of the scene, without cascades.
+/// What sheets leave for rays in pictures of the built-in scene and of Sponza. They must be right about the rest. One
+/// map covers all of the scene, without cascades.
 namespace gnomon {
 namespace {
 
@@ -45,7 +45,7 @@ std::unique_ptr<LoadedScene> load(const std::optional<std::filesystem::path>& na
 
 class SheetsOfScenes : public SheetsTest {
 protected:
-    /// Under a sun, a spot and a lamp of the test's own.
+    /// Judges the scene under a sun, a spot and a lamp of the test's own.
     void judge(LoadedScene& scene, const ConsumerItem& camera, double most_uncertain_percent) {
         const math::Aabb box = scene.snapshot.tree.box();
         const glm::dvec3 size = box.max - box.min;
@@ -104,7 +104,7 @@ private:
         return test::cube_views(light, range, size_px);
     }
 
-    /// Percent of the scored pixels.
+    /// Returns the uncertain share of the scored pixels, percent, and expects the other pixels to be right.
     double judge_map(const SceneSnapshot& snapshot, const assets::MeshLibrary& library, const oracle::PrimaryHits& hits,
                      const oracle::LightTruth& truth, const std::vector<shadow::ShadowView>& views,
                      std::uint32_t size_px) {

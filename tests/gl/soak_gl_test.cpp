@@ -15,10 +15,11 @@ constexpr std::size_t kMostGrowth_bytes = 2u << 20;
 
 class GlSoak : public GlTest {
 protected:
-    /// llvmpipe keeps, for each list of work in flight, the memory that the list needed, and the last references to
-    /// deleted textures, until that list is used again; how many there are depends on how its threads are scheduled.
-    /// That alone moves memory by up to 5 MiB either way, without a trend (44 000 frames; the allocations of this
-    /// process' own code stay the same to the byte meanwhile). Without threads there is one such list.
+    /// Switches llvmpipe's threads off. For each list of work in flight, llvmpipe keeps the memory that the list
+    /// needed, and the last references to deleted textures. It keeps both until that list is used again. How many lists
+    /// there are depends on how its threads are scheduled. That alone moves memory by up to 5 MiB either way, without a
+    /// trend (over 44 000 frames). The allocations of this process' own code stay the same to the byte meanwhile.
+    /// Without threads there is one such list.
     static void SetUpTestSuite() { setenv("LP_NUM_THREADS", "0", 1); }
 
     void SetUp() override {

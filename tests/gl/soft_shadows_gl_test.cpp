@@ -12,7 +12,7 @@ constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKi
 
 class SoftShadows : public TracedFrameTest {
 protected:
-    /// A ground, and at that height a sheet over the half of it where x is negative.
+    /// Builds a ground, and at `height_m` a sheet over the half of it where x is negative.
     void build(LightKind kind, double height_m, ShadowFilter filter, const ShadowTuning& tuning = {},
                bool sheet = true) {
         start_anew();
@@ -22,7 +22,7 @@ protected:
         light_ = add_light_of(kind, {0.4, kLamp_m, 0.3}, {.filter = filter, .resolution_px = 1024}, tuning);
         add_camera({.fov_y_rad = 0.35}, {0.4, 1.2, 3.0}, glm::dvec3(-0.35, -1.2, -3.0));
     }
-    /// The same under a light with a size.
+    /// Builds the same under a light with a size.
     void build_soft(LightKind kind, double height_m, ShadowFilter filter = ShadowFilter::pcss, bool sheet = true) {
         build(kind, height_m, filter, {.kernel = {.taps = 32}}, sheet);
         world.patch<Light>(light_, [](Light& light) { light.source_radius_m = 0.3f, light.sun_radius_rad = 0.08f; });
@@ -44,7 +44,7 @@ protected:
         return soft;
     }
 
-    /// Most that shadows of one edge may be off, as shares. width: of the penumbra's width in truth.
+    /// Most that shadows of one edge may be off, as shares. `width`: share of the true penumbra's width.
     struct MostOff {
         double width = 0.0, lost = 0.0, error = 0.0;
         double penumbra_error = 1.0, umbra_leak = 1.0, lit_loss = 1.0;
@@ -210,7 +210,7 @@ void SoftShadows::plane_alone_is_lit(ShadowFilter filter) {
             draw();
             EXPECT_EQ(frame().report().lights[0].state, LightState::rendered) << "the plane casts";
             const std::vector<float> shown = visibility();
-            constexpr float kRounding = 1e-5f;  // of four moments
+            constexpr float kRounding = 1e-5f;  // rounding of four moments
             const auto dimmed = [](float v) { return v >= 0.0f && v < 1.0f - kRounding; };
             EXPECT_EQ(std::count_if(shown.begin(), shown.end(), dimmed), 0);
             EXPECT_GT(std::count_if(shown.begin(), shown.end(), [](float v) { return v > 0.5f; }), 10000);

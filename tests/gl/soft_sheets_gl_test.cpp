@@ -6,8 +6,8 @@
 #include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 
-/// What sheets are certain of for a source with a size is so: random worlds, views and sources, every certain place
-/// asked of rays in double to all of the source.
+/// What sheets are certain of for a source with a size is so. In random worlds, views and sources, rays in double to
+/// all of the source judge every certain place.
 namespace gnomon {
 namespace {
 
@@ -25,7 +25,7 @@ struct SoftTally {
 
 class SoftSheets : public SheetsTest, public ::testing::WithParamInterface<LightKind> {
 protected:
-    /// One random world under one random light: the only thing that is certain of a place is what no ray contradicts.
+    /// Plays one random world under one random light. A place's verdict is right only if no ray contradicts it.
     void play(Random& random, std::size_t count, bool margins, Ask ask, SoftTally& tally) {
         glm::dvec3 offset_m(0.0);
         if (chance(random, 0.2)) offset_m = {1.0e8, -3.0e7, 5.0e7};
@@ -59,7 +59,7 @@ protected:
     static std::size_t places() { return is_long_run() ? 40000 : 12000; }
 
 private:
-    /// Small things around a lamp, as a cage or a housing has them, some of them in one face of its cube alone.
+    /// Adds small things around a lamp, like a cage or a housing, some of them in one face of its cube alone.
     static void surround(QueryScene& scene, const LightItem& light, Random& random) {
         if (light.kind == LightKind::directional) return;
         const double radius_m = static_cast<double>(light.source_radius_m);
@@ -114,7 +114,7 @@ TEST_P(SoftSheets, AreRightWhereTheyAreCertain) {
     std::cout << tally.places << " places, " << tally.lit << " certainly lit, " << tally.dark << " certainly dark, "
               << tally.wrong << " wrong\n";
     EXPECT_EQ(tally.wrong, 0u);
-    // It is no use to be certain of nothing.
+    // Certainty about nothing proves nothing.
     EXPECT_GT(tally.lit, tally.places / 500);
     EXPECT_GT(tally.dark, tally.places / 500);
 }

@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-/// What C's function pointers cannot carry with them.
+/// Calls recorded, and how to undo the spying: C's function pointers cannot carry them.
 std::vector<std::string> calls;
 std::vector<void (*)()> undo;
 

@@ -57,7 +57,7 @@ protected:
         return std::move(found).value();
     }
 
-    /// Everything but times.
+    /// Returns what the sweep found of each light in this row, except times.
     static nlohmann::ordered_json found(const bench::SceneSweep& sweep, const std::string& name) {
         for (const bench::JudgedRow& judged : sweep.rows)
             if (judged.name == name) {
@@ -117,7 +117,7 @@ TEST_F(SweepGl, WhatWasFoundBeforeIsNotMeasuredAgainAndTheRestIs) {
     EXPECT_THAT(said_, Contains(HasSubstr("row 3 of 3: soft")));
     for (const char* name : {"defaults", "hard", "soft"}) EXPECT_EQ(found(whole, name), found(again, name)) << name;
     said_.clear();
-    (void)sweep("a", {kDefaults, kHard}, 1);  // another plan begins anew
+    (void)sweep("a", {kDefaults, kHard}, 1);  // another plan begins from its first row
     EXPECT_THAT(said_, Contains(HasSubstr("row 1 of 2: defaults")));
 }
 

@@ -11,13 +11,13 @@ namespace gnomon {
 /// A small world, drawn by the whole pipeline and judged by rays.
 class TracedFrameTest : public FrameTest {
 protected:
-    /// As an importer leaves it: what is closed is known to be.
+    /// Adds a mesh as an importer leaves it, with its topology known: whether it is closed, too.
     std::uint32_t add_analysed(const game::Shape& shape, std::optional<std::uint32_t> material = {}) {
         const std::uint32_t mesh = add_mesh(shape, material);
         library.meshes[mesh].topology = assets::analyse_topology(library.meshes[mesh]);
         return mesh;
     }
-    /// A light of each kind above the ground around the origin.
+    /// Adds a light of this kind above the ground, which shines on the origin.
     ecs::Entity add_light_of(LightKind kind, const glm::dvec3& at_m, const LightShadow& shadow,
                              const ShadowTuning& tuning = {}) {
         return add_light({.kind = kind, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at_m, -at_m, shadow, tuning);
@@ -25,7 +25,7 @@ protected:
     struct Judged {
         oracle::Metrics metrics;
         std::vector<float> measured, truth;
-        std::size_t truly_dark = 0;  // of the pixels that are scored
+        std::size_t truly_dark = 0;  // scored pixels that are dark by rays
     };
     /// Pixels of many pictures.
     struct Tally {

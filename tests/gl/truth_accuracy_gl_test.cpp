@@ -56,7 +56,7 @@ TEST_F(TruthAccuracy, TheBuiltInSceneIsRightFromItsOtherCamerasAndTimes) {
     }
 }
 
-/// The far end: of what is scored and not ambiguous, nothing is wrong, and next to nothing is ambiguous.
+/// Expects no wrong pixel among scored and unambiguous ones, and next to none to be ambiguous.
 void expect_exact(const bench::Accuracy& accuracy, std::size_t lights) {
     constexpr double kMostAmbiguous = 0.001;
     ASSERT_EQ(accuracy.lights.size(), lights);

@@ -9,12 +9,12 @@
 #include "tests/gl/truth_scenes.h"
 #include "tests/unit/math/random_seed.h"
 
-// The accuracy contract, measured: where a light's report says that it keeps max_error_px, its shadow edges are where
-// rays say they are, to within that.
+// The accuracy contract, measured. Where a light's report states that it keeps max_error_px, its shadow edges lie
+// within that of where rays find them.
 namespace gnomon {
 namespace {
 
-/// Below this a map is the smallest there is, and half of it may keep its light's word.
+/// Below this a map is the smallest there is, and one of half its size may still meet its light's target.
 constexpr std::uint32_t kLeastToHalve_px = 512;
 constexpr std::uint32_t kRandomLights = 24;
 
@@ -81,7 +81,8 @@ TEST_F(TruthContract, IsKeptAtEveryEdgeOfEveryLightThatSaysSo) {
     }
 }
 
-/// Where no map of the usual filter keeps it, another filter does: every light then has its word.
+/// Checks that every light meets its target if it may choose its filter. Where no map of the usual filter does, another
+/// filter does.
 TEST_F(TruthContract, IsKeptByEveryLightWhoseFilterIsTheContractsToChoose) {
     std::size_t chosen = 0;
     Kept named, kept;
@@ -116,7 +117,7 @@ TEST_F(TruthContract, IsKeptInRandomLevels) {
         const bench::StageOptions options = asking_for(wish_px, i < 2 ? "hard" : "triangles");
         auto stage = bench::Stage::open(options, bench::demand_scene(kRandomLights, seed + i));
         ASSERT_TRUE(stage);
-        // From above: at the height of eyes no map is as fine as the nearest ground asks for.
+        // From above: at the height of eyes no map is as fine as the nearest ground needs.
         std::mt19937_64 random(seed + i);
         const auto number = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
         const glm::dvec3 eye_m(number(-15.0, 15.0), number(10.0, 20.0), number(-15.0, 15.0));
@@ -132,7 +133,8 @@ TEST_F(TruthContract, IsKeptInRandomLevels) {
     EXPECT_GT(kept.places, 100u);
 }
 
-/// Texels decide under `hard`. Walks find edges by any texels, and resolve less: only casters twice as wide.
+/// Checks that half the texels break the contract. Texels decide under `hard`. Walks find edges by any texels, and
+/// resolve less: only casters twice as wide.
 TEST_F(TruthContract, IsBrokenByMapsHalfAsLargeAsItChose) {
     std::size_t halved = 0;
     for (const char* filter : {"hard", "triangles"})

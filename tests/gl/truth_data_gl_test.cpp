@@ -12,7 +12,8 @@ namespace {
 
 class TruthData : public TruthTest {
 protected:
-    /// Cloth and leaves with folds narrower than the map's texels.
+    /// Returns the largest share of wrong pixels. Cloth and leaves may have more: their folds are narrower than the
+    /// map's texels.
     static double most_wrong(const std::string& name) {
         static const std::map<std::string, double> kFiner = {
             {"intel-sponza-simplified/curtains/sponza_curtains.gltf", 0.002},

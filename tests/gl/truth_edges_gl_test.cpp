@@ -3,11 +3,11 @@
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"
 
-// Shadow edges are where the prediction says they may be.
+// Shadow edges are where the prediction allows them.
 namespace gnomon {
 namespace {
 
-/// With fewer places a light's 99th percentile says nothing.
+/// With fewer places a light's 99th percentile means nothing.
 constexpr std::size_t kLeastPlaces = 200;
 constexpr double kMostMedianRatio = 3.0;
 /// Places at which an exception would be allowed, of all: where these are many, nothing is proven.
@@ -26,7 +26,7 @@ protected:
         return options;
     }
 
-    /// One row of the table in docs/explanation/accuracy.md; the rows are what its figures are of.
+    /// Prints the figures of one light at one resolution.
     static void print(const bench::StageOptions& options, const bench::LightAccuracy& light) {
         const oracle::EdgeDisplacement& edge = light.metrics.edge;
         std::printf(

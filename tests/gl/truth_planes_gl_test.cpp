@@ -4,7 +4,7 @@
 namespace gnomon {
 namespace {
 
-// Of scored pixels.
+// Share of scored pixels.
 constexpr double kMostFarLight = 1.0e-4;
 constexpr std::size_t kManyPixels = 1000;
 

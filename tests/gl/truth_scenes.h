@@ -85,7 +85,7 @@ inline const bench::LightAccuracy* find_light(const bench::Accuracy& accuracy, c
 }
 
 inline double wrong_share(const oracle::Metrics& m) { return m.fraction(m.wrong); }
-/// What may come of settings that are not the defaults.
+/// Bound for settings that are not the defaults.
 inline constexpr double kMostAcneAndLeak = 0.001;
 inline double false_shape_share(const oracle::Metrics& m) { return m.fraction(m.acne + m.leak); }
 

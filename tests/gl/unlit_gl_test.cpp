@@ -17,7 +17,7 @@ int shown_as(float linear) {
 
 class Unlit : public FrameTest {
 protected:
-    /// A box of that material, on the left, over a matt ground.
+    /// Draws a box of that material, on the left, over a matt ground.
     void make_world(const assets::Material& of_box, std::optional<float> ev, float lux = 500.0f) {
         start_anew();
         settings = {.viewport_px = kUnlit_px, .exposure_ev = ev, .leave_out_dim_lights = false};
@@ -32,7 +32,7 @@ protected:
         draw();
     }
 
-    /// The picture where the box's middle, and the ground beside it, are seen.
+    /// Returns the picture's colour, 0 to 255, where it shows this place of the ground or of the box.
     glm::ivec3 at(const std::vector<std::uint8_t>& rgba, double x_m, double z_m) const {
         // looking_along() turns a view straight down so that the world's x is up.
         const double half_m = 4.0, pixel_m = 2.0 * half_m / kUnlit_px.y;

@@ -18,10 +18,10 @@ public:
     UnusualGlState(const UnusualGlState&) = delete;
     UnusualGlState& operator=(const UnusualGlState&) = delete;
 
-    /// Messages that the engine's callback heard, of at least medium severity.
+    /// Returns the messages that the engine's callback received, of at least medium severity.
     const std::vector<std::string>& complaints() const { return complaints_; }
 
-    /// Pieces that the state of this work leaves at their default, by the beginning of their names, and why.
+    /// Returns whether the state of this work leaves a piece at its default, by the beginning of the piece's name.
     static bool is_default(EngineWork work, std::string_view name);
 
 private:

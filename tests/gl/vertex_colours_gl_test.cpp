@@ -3,7 +3,7 @@
 #include "tests/gl/traced_frame_fixture.h"
 
 /// COLOR_0 of vertices: its alpha cuts masked casters out, its colour is the picture's. What is right follows from the
-/// meshes alone; the tracer has to say so as well.
+/// meshes alone; the tracer must find it as well.
 namespace gnomon {
 namespace {
 
@@ -11,7 +11,7 @@ constexpr double kCardSide_m = 8.0, kSeenHalf_m = 3.6;
 
 class VertexColours : public TracedFrameTest, public ::testing::WithParamInterface<ShadowFilter> {
 protected:
-    /// A card whose vertices are of `low` at its lowest z and of `high` at its highest.
+    /// Adds a card with the colour `low` in vertices at its lowest z and `high` at its highest.
     std::uint32_t add_card(std::uint32_t material, const glm::vec4& low, const glm::vec4& high) {
         const std::uint32_t mesh =
             add_mesh(game::make_card(glm::dvec3(0.0), {0.0, 0.0, kCardSide_m}, {kCardSide_m, 0.0, 0.0}), material);
@@ -30,7 +30,8 @@ protected:
         const double u = (static_cast<double>(pixel % settings.viewport_px.x) + 0.5) / width * 2.0 - 1.0;
         return u * kSeenHalf_m * width / height;
     }
-    /// Pixels that are otherwise than dark for z from `begin` to `end`, a pixel or two beside these ends left out.
+    /// Counts the pixels that are not dark for z from `begin` to `end`, or not lit elsewhere. It leaves out a pixel or
+    /// two beside these ends.
     std::size_t wrong(const std::vector<float>& visibility, double begin, double end) const {
         std::size_t count = 0;
         for (std::size_t i = 0; i < visibility.size(); ++i) {

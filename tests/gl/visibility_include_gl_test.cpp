@@ -23,8 +23,8 @@ namespace gnomon::shadow {
 void PrintTo(const FilterRow& row, std::ostream* out) { *out << row.name; }
 }  // namespace gnomon::shadow
 
-// shadow_visibility(), as a forward renderer would include it, on a map drawn by hand: what the pipeline's own fits
-// never let happen (a point outside the map or beyond its far plane) must still be lit.
+// shadow_visibility(), as a forward renderer would include it, on a map drawn by hand. The pipeline's own fits never
+// leave a point outside the map or beyond its far plane; here such points occur and must be lit.
 namespace gnomon {
 namespace {
 
@@ -50,7 +50,7 @@ constexpr shadow::FilterRow kDiamond{
 /// Points are relative to the camera, which is at the light; the light shines along -z.
 class VisibilityInclude : public MomentMapTest, public ::testing::WithParamInterface<shadow::FilterRow> {
 protected:
-    /// A record for a light at the origin that looks along -z.
+    /// Returns the record of a light at the origin that looks along -z.
     static shadow::LightRecord record(LightKind kind) {
         const bool sun = kind == LightKind::directional;
         const double range_m = kMapFar_m - kMapNear_m;
@@ -73,7 +73,7 @@ protected:
         row_ = GetParam();
         if (is_soft()) settings_ = kSource;
     }
-    /// Another row than the test's parameter.
+    /// Uses another row than the test's parameter.
     void use(const shadow::FilterRow& row, const LightItem& settings) {
         row_ = row;
         settings_ = settings;
@@ -83,13 +83,13 @@ protected:
     bool reads_depths() const { return row_.reading == shadow::MapReading::depths; }
     bool reads_triangles() const { return row_.storage.triangle_ids; }
     bool reads_moments() const { return row_.moments; }
-    /// A map drawn by hand shows casters that are no triangles.
+    /// Returns a texture of triangles without any: a map drawn by hand shows casters that are no triangles.
     gl::TextureHandle no_triangles(gl::TextureKind kind) {
         const std::vector<std::uint32_t> none(std::size_t{kDrawnMap_px} * kDrawnMap_px * 2 * (kind == gl::TextureKind::cube ? 6 : 1), 0xffffffffu);
         return keep(device().create_texture({.label = "triangles", .kind = kind, .format = gl::Format::rg32ui, .width = kDrawnMap_px, .height = kDrawnMap_px},
                                             std::as_bytes(std::span(none))));
     }
-    /// Whether values between lit and dark occur.
+    /// Returns whether values between lit and dark occur.
     bool blends() const { return row_.id != ShadowFilter::hard && (!reads_depths() || is_soft()); }
     bool is_soft() const { return row_.width == shadow::FilterWidth::source; }
     LightItem item(LightKind kind) const {
@@ -98,12 +98,12 @@ protected:
         return light;
     }
     shadow::FilterSettings filtering(LightKind kind) const { return shadow::filter_settings(row_, item(kind), kDrawnMap_px); }
-    /// E in the tangent or metres of the map.
+    /// Returns E in the tangent or metres of the map.
     double reach(LightKind kind) const {
         return static_cast<double>(filtering(kind).widest_texel) * 2.0 * kHalf / kDrawnMap_px;
     }
 
-    /// The row as a program that looks up a list of probes.
+    /// Returns the row as a program that looks up a list of probes.
     gl::ProgramHandle program_of(LightKind kind) {
         gl::ProgramHandle& program = programs_[static_cast<std::size_t>(kind)];
         if (program) return program;
@@ -136,14 +136,14 @@ protected:
         return program = keep(device().create_program({"probe", vertex.value(), expanded.value()}));
     }
 
-    /// The normal of a plane across the map, or across the face of the cube.
+    /// Returns the normal of a plane across the map, or across the face of the cube.
     static glm::vec3 facing(LightKind kind, const glm::vec3& p) {
         const glm::vec3 size = glm::abs(p);
         if (kind != LightKind::point || (size.z >= size.x && size.z >= size.y)) return {0.0f, 0.0f, p.z > 0.0f ? -1.0f : 1.0f};
         return size.x >= size.y ? glm::vec3(p.x > 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, p.y > 0.0f ? -1.0f : 1.0f, 0.0f);
     }
 
-    /// `texels`: the map's, reversed depth, row by row, face by face.
+    /// Returns the visibility of the points. `texels`: the map's, reversed depth, row by row, face by face.
     std::vector<float> look_up(LightKind kind, std::span<const float> texels, const std::vector<glm::vec3>& points, bool early_bail = false) {
         const auto& kind_row = shadow::light_kind_row(kind);
         const auto map = keep(device().create_texture({.label = "map", .kind = kind_row.texture, .format = gl::Format::d32f, .width = kDrawnMap_px, .height = kDrawnMap_px},
@@ -186,14 +186,14 @@ protected:
         return read<float>(texture, width);
     }
 
-    /// A map whose every texel holds a caster at `map_depth` (0: none).
+    /// Returns the visibility of the points in a map with a caster at `map_depth` in every texel (0: none).
     std::vector<float> evaluate(LightKind kind, float map_depth, const std::vector<glm::vec3>& points) {
         return look_up(kind, std::vector<float>(texels_of(kind), map_depth), points);
     }
 
     static std::size_t texels_of(LightKind kind) { return std::size_t{kDrawnMap_px} * kDrawnMap_px * (kind == LightKind::point ? 6 : 1); }
 
-    /// A caster before every texel that looks toward negative x; none before the others.
+    /// Returns a map with a caster before every texel that looks toward negative x, and none before the others.
     static std::vector<float> half_covered(LightKind kind) {
         std::vector<float> texels(texels_of(kind), 0.0f);
         for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -209,8 +209,8 @@ protected:
         return texels;
     }
 
-    /// Places all over what the light sees, seams and corners of cubes, borders of maps and both ends of the range among
-    /// them, between `nearest_m` and `farthest_m` along the view.
+    /// Returns places all over what the light sees, between `nearest_m` and `farthest_m` along the view. They include
+    /// seams and corners of cubes, borders of maps and the far end of the range.
     static std::vector<glm::vec3> places(LightKind kind, double nearest_m, double farthest_m) {
         std::mt19937 random(20240229);
         std::uniform_real_distribution<double> share(-1.0, 1.0);
@@ -227,19 +227,21 @@ protected:
         return found;
     }
 
-    /// How far the point is from where half_covered() changes, in metres (sun) or as a tangent.
+    /// Returns how far the point is from where half_covered() changes, in metres (sun) or as a tangent. Negative: on
+    /// the caster's side.
     static double from_edge(LightKind kind, const glm::vec3& p) {
         const double x = static_cast<double>(p.x);
         if (kind == LightKind::directional) return x;
         return x / static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
     }
 
-    /// Of rows that ask for it: the cone from half_covered()'s receivers to the source is a few texels wide at the casters.
+    /// Source for rows that read one: the cone from half_covered()'s receivers to it is a few texels wide at the
+    /// casters.
     const LightItem kSource = [] {
         LightItem light;
         light.source_radius_m = 0.3f, light.sun_radius_rad = 0.05f;
         return light; }();
-    static constexpr float kWeights = 1e-6f;  // a sampler's weights sum up to 1 but for rounding
+    static constexpr float kWeights = 1e-6f;  // a sampler's weights sum up to 1 except for rounding
     static constexpr float kMiddle = 0.5f;  // a depth between near and far
     static constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
@@ -310,7 +312,7 @@ TEST_P(VisibilityInclude, FartherThanItsHalfWidthFromACastersEdgeItIsLitOrDarkAn
                 (expected > 0.0f ? lit : dark) += 1;
             }
             const auto enough =
-                static_cast<std::size_t>(200.0 * (1.0 - 2.0 * reach(kind)));  // of wide ones fewer are left
+                static_cast<std::size_t>(200.0 * (1.0 - 2.0 * reach(kind)));  // wide ones leave fewer
             EXPECT_GT(lit, enough);
             EXPECT_GT(dark, enough);
             EXPECT_GT(inside, 5u) << "nothing near the edge: the test sees nothing";

@@ -17,10 +17,10 @@ public:
     using Report = std::function<void(const std::string& function, const std::string& difference)>;
     WatchedDevice(gl::Device& device, Report report) : device_(device), report_(std::move(report)) {}
 
-    /// Functions that were called.
+    /// Returns the names of the functions that were called.
     const std::set<std::string>& called() const { return called_; }
 
-    /// Does something else with the device, and watches it.
+    /// Runs a call of another function of the device, and watches it.
     template <class Call>
     std::invoke_result_t<Call> watch(const char* function, Call call) {
         called_.insert(function);

@@ -1,4 +1,4 @@
-// A tool that reads glTF files and draws nothing. Exit code 0: the mesh is what the file says.
+// A tool that reads glTF files and draws nothing. Exit code 0: the mesh is as in the file.
 #include <gnomon/assets.h>
 
 #include <cstdio>

@@ -5,11 +5,12 @@
 
 namespace gnomon::oracle {
 
-/// Alpha of a texture at `uv` (glTF: v down), 0…1, at its finest level: bilinear, or nearest if the texture says so.
-/// A texture without texels is opaque.
+/// Returns the alpha of a texture at `uv` (glTF: v down), 0…1, at its finest level. It is bilinear, or nearest if the
+/// texture is set to it. A texture without texels is opaque.
 double sample_alpha(const assets::Texture& texture, const glm::dvec2& uv);
 
-/// True if the material leaves the surface there at `uv`: not masked, or alpha * factor * vertex_alpha >= cutoff.
+/// Returns whether the material leaves the surface there at `uv`: it is not masked, or alpha * factor * vertex_alpha >=
+/// cutoff.
 bool passes_mask(const assets::MeshLibrary& library, const assets::Material& material, const glm::dvec2& uv,
                  double vertex_alpha = 1.0);
 

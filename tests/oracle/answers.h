@@ -6,7 +6,7 @@
 
 namespace gnomon::oracle {
 
-/// Answers to a fixed number of questions, each found when it is first asked for; by any number of threads.
+/// Answers to a fixed number of yes-or-no questions, each found at its first use. Any number of threads may use them.
 class Answers {
 public:
     explicit Answers(std::size_t count) : known_(count) {}

@@ -7,7 +7,7 @@
 namespace gnomon::oracle {
 namespace {
 
-/// The i-th number of a sequence that fills [0, 1) evenly.
+/// Returns the i-th number of Halton's sequence, which fills [0, 1) evenly.
 double halton(int i, int base) {
     double value = 0.0, share = 1.0;
     for (; i > 0; i /= base) {

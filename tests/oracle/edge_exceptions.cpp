@@ -13,10 +13,11 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr double kStepPx = 0.25;
-/// Between rays over a footprint, along each of its sides: what is thinner can still lie before a texel's middle, and
-/// be all that the map knows of its surroundings.
+/// Greatest distance between rays over a footprint, along each of its sides. What is thinner can still lie before a
+/// texel's middle, and be all that the map knows of its surroundings.
 constexpr double kRayStepTexel = 0.25;
-/// Places lie close together, and so do the steps of a search from them: what it asks of pixels is found once for each.
+/// Search from a place along its edge. Places lie close together, and so do the steps of their searches. So answers
+/// about a pixel are found once.
 class Judge {
 public:
     Judge(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer, const LightItem& light,
@@ -35,7 +36,7 @@ public:
     }
 
 private:
-    /// Whether the map must show shadow on the one side of the edge and light on the other.
+    /// Returns whether the map must show shadow on the one side of the edge and light on the other.
     bool shows(const EdgeDisplacement::Place& place, double bound_px, bool certain) const {
         return shows(place.middle_px, -place.rise, true, bound_px, certain) &&
                shows(place.middle_px, place.rise, false, bound_px, certain);
@@ -62,7 +63,7 @@ private:
         return sure > 0.5;
     }
 
-    static constexpr std::size_t kQuestions = 3;  // of a pixel: whether it is certain, all dark, all lit
+    static constexpr std::size_t kQuestions = 3;  // per pixel: is it certain, all dark, all lit
     bool is_certain(std::size_t pixel) const {
         return answers_.get(kQuestions * pixel, [&] { return shows_one_surface(tracer_, hits_, consumer_, truth_, pixel); });
     }

@@ -3,7 +3,8 @@
 namespace gnomon::oracle {
 namespace {
 
-/// Whether all that lies around a pixel's centre, as far as the rasteriser snaps, is the plane that its ray meets.
+/// Returns whether all that lies around a pixel's centre, as far as the rasteriser snaps, is the plane that its ray
+/// meets.
 bool is_one_surface(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
                     std::size_t pixel) {
     const glm::dvec2 centre(static_cast<double>(pixel % hits.size_px.x), static_cast<double>(pixel / hits.size_px.x));

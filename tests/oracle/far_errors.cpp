@@ -24,8 +24,8 @@ public:
     Search(const ComparedPictures& pictures, std::span<const std::uint8_t> creases)
         : p_(pictures), creases_(creases), width_(pictures.size_px.x), height_(pictures.size_px.y) {}
 
-    /// Whether the middle between any two neighbours for which `parts(pixel, neighbour, crease bit)` holds lies within
-    /// `reach_px` of the pixel's centre.
+    /// Returns whether the middle between two neighbours lies within `reach_px` of the pixel's centre. Neighbours count
+    /// for which `parts(pixel, neighbour, crease bit)` is true.
     template <class Parts>
     bool any_within(std::size_t pixel, double reach_px, Parts parts) const {
         const auto x = static_cast<long>(pixel % width_), y = static_cast<long>(pixel / width_);
@@ -50,7 +50,7 @@ public:
         return any_within(pixel, reach_px,
                           [&](std::size_t a, std::size_t, std::uint8_t bit) { return (creases_[a] & bit) != 0; });
     }
-    /// Beyond it nobody looked for edges.
+    /// Returns whether the picture's border is within reach. Edges beyond it are not known.
     bool near_border(std::size_t pixel, double reach_px) const {
         const std::size_t x = pixel % width_, y = pixel / width_;
         return static_cast<double>(std::min({x, y, width_ - 1 - x, height_ - 1 - y})) < reach_px;
@@ -63,7 +63,8 @@ private:
     std::size_t width_, height_;
 };
 
-/// Whether the truth is another than at the pixel's centre somewhere within reach of it; rings outward.
+/// Returns whether the truth somewhere within reach differs from the truth at the pixel's centre. Searches in rings,
+/// outward.
 bool changes_within(std::size_t pixel, double reach_px, bool lit_there, const LitBetween& lit) {
     const int rings = static_cast<int>(reach_px * kBetween);
     for (int ring = 1; ring <= rings; ++ring)

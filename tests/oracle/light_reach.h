@@ -10,7 +10,8 @@
 
 namespace gnomon::oracle {
 
-/// Direction to the light's middle and how far along it the light is; false outside its range or cone, or behind its plane.
+/// Computes the direction to the light's middle and the ray parameter there. Returns false outside the light's range or
+/// cone, or behind its plane.
 inline bool reach(const LightItem& light, const glm::dvec3& light_rel_m, const glm::dvec3& point_rel_m,
                   glm::dvec3& to_light, double& t_max) {
     if (light.kind == LightKind::directional) {
@@ -32,7 +33,7 @@ inline double cosine_between(const glm::dvec3& unit_normal, const glm::dvec3& to
     return glm::dot(unit_normal, to_light) / glm::length(to_light);
 }
 
-/// Two axes in the plane of a unit normal.
+/// Returns two axes in the plane of a unit normal.
 inline std::array<glm::dvec3, 2> tangents(const glm::dvec3& n) {
     const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 first = glm::normalize(glm::cross(n, helper));

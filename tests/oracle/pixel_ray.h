@@ -12,7 +12,8 @@ struct PixelRay {
     double t_min = 0.0, t_max = std::numeric_limits<double>::infinity();
 };
 
-/// What is seen at `at_px`, a place in the picture; whole numbers are pixel centres, row 0 is the lowest.
+/// Returns the ray along which the camera sees at `at_px`, a place in the picture. Whole numbers are pixel centres, row
+/// 0 is the lowest.
 inline PixelRay pixel_ray(const ConsumerItem& consumer, const glm::dvec3& camera_rel_m, const glm::dvec2& at_px) {
     const glm::dvec2 size(consumer.viewport_px);
     const glm::dvec2 ndc = 2.0 * (at_px + 0.5) / size - 1.0;

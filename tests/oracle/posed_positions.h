@@ -7,8 +7,9 @@
 
 namespace gnomon::oracle {
 
-/// Where each vertex of the mesh is, in the space of its instances: bent as the snapshot says, else at rest. In double
-/// and never rounded; apart from the project's own deformation, point by point after glTF 2.0, 3.7.3.3.
+/// Computes where each vertex of the mesh is, in the space of its instances: bent as in the snapshot, else at rest.
+/// Works in double and never rounds to float. Independent of the project's own deformation: point by point after glTF
+/// 2.0, 3.7.3.3.
 std::vector<glm::dvec3> posed_positions(const SceneSnapshot& snapshot, const assets::MeshLibrary& library,
                                         std::uint32_t mesh);
 

@@ -21,10 +21,10 @@ struct ResolvedEdges {
 
 /// Sorts the places of `edge`. A place is resolved if both of its pixels lie in wide squares. Throughout the dark
 /// pixel's square the light meets one piece of a caster first; the bright pixel's is lit throughout. The squares are
-/// as wide as (1/2 + E) diagonals of a texel, along the map's rows and columns, on the plane that the pixel shows and its continuation.
-/// Each then contains a texel that decides the pixel, wherever the map's texels lie. Casters count that stand off the
-/// plane by more than its own rise over the texel, and than the depth format's steps. `pieces`: a number per triangle
-/// of the tracer (CasterPieces).
+/// as wide as (1/2 + E) diagonals of a texel, along the map's rows and columns. They lie on the plane that the pixel
+/// shows and its continuation. Each then contains a texel that decides the pixel, wherever the map's texels lie.
+/// Casters count that stand off the plane by more than its own rise over the texel, and than the depth format's steps.
+/// `pieces`: a number per triangle of the tracer (CasterPieces).
 ResolvedEdges resolved_edges(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
                              const LightItem& light, const LightTruth& truth, const EdgeDisplacement& edge,
                              std::span<const std::uint32_t> pieces, const TexelAt& texel_at);

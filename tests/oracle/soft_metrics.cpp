@@ -26,7 +26,7 @@ double crossing(std::span<const float> values, std::size_t before, float level) 
     return static_cast<double>(before) + (static_cast<double>(level) - a) / (b - a);
 }
 
-/// The first rise from dark to bright at or after `from`, ending by `end`.
+/// Returns the first rise from dark to bright at or after `from` and before `end`.
 std::optional<Rise> first_rise(std::span<const float> values, std::size_t from, std::size_t end) {
     std::optional<std::size_t> dark;
     for (std::size_t i = from; i < end; ++i) {
@@ -47,7 +47,7 @@ bool rises_steadily(std::span<const float> values) {
 
 class Widths {
 public:
-    /// One line of pixels on one plane.
+    /// Judges the rises along one line of pixels on one plane.
     void look_along(const std::vector<float>& truth, const std::vector<float>& measured) {
         for (std::size_t from = 0; from < truth.size();) {
             const auto rise = first_rise(truth, from, truth.size());
@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    /// As far again to either side.
+    /// Compares a true rise with the first measured one, searched as far again to either side.
     void judge(const Rise& truth, std::size_t first, std::size_t last, const std::vector<float>& measured) {
         const std::size_t width = last - first;
         const std::size_t from = first > width ? first - width : 0, end = std::min(last + width + 1, measured.size());
@@ -88,14 +88,14 @@ private:
     std::size_t lost_ = 0;
 };
 
-/// Whether q lies on the plane of p.
+/// Returns whether q lies on the plane of p.
 bool on_one_plane(const PrimaryHits& hits, std::size_t p, std::size_t q) {
     if (glm::dot(hits.normal_ws[p], hits.normal_ws[q]) < kSameNormal) return false;
     const glm::dvec3 way = hits.position_rel_m[q] - hits.position_rel_m[p];
     return std::abs(glm::dot(hits.normal_ws[p], way)) <= kSamePlane * glm::length(way);
 }
 
-/// Both ways along a row or a column, run by run.
+/// Judges a row or a column both ways, in runs of pixels on one plane.
 void look_along_line(const PrimaryHits& hits, const SoftTruth& truth, std::span<const float> measured,
                      std::size_t first, std::size_t step, std::size_t count, Widths& widths) {
     std::vector<float> truths, values;

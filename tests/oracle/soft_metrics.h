@@ -8,10 +8,10 @@
 /// How far a picture of visibility is from the truth about a source with a size.
 namespace gnomon::oracle {
 
-/// Along rows and columns of the picture, where the truth rises from a tenth to nine tenths, or falls, on one plane:
-/// how wide that is as measured, of how wide it truly is. Hard edges have a ratio near 0.
+/// Ratios of measured to true widths of penumbras, along rows and columns of the picture. A place is where the truth
+/// rises from a tenth to nine tenths, or falls, on one plane. Hard edges have a ratio near 0.
 struct PenumbraWidths {
-    std::size_t places = 0;  // of at least kLeastPenumbra_px
+    std::size_t places = 0;  // truly at least kLeastPenumbra_px wide
     std::size_t lost = 0;    // nothing measured there goes from a tenth to nine tenths: ratio 0
     double median_ratio = 0.0, p10_ratio = 0.0, p90_ratio = 0.0;  // 0 without places
 };
@@ -22,7 +22,7 @@ struct SoftMetrics : truth::SoftMetrics {
 
 inline constexpr std::size_t kLeastPenumbra_px = 4;
 
-/// `measured` as of --visibility, of the size of the hits.
+/// Compares `measured`, values as --visibility writes them, of the size of the hits, with the truth.
 SoftMetrics compare_soft(const PrimaryHits& hits, const SoftTruth& truth, std::span<const float> measured);
 
 }  // namespace gnomon::oracle

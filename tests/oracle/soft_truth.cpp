@@ -17,14 +17,14 @@ namespace {
 constexpr std::uint32_t kCoarser = 4;  // SourceSampling::first_few
 constexpr int kNeighbours_px = 2;
 
-/// Every bit of the result depends on every bit of x (the finaliser of MurmurHash3).
+/// Hashes x so that every bit of the result depends on every bit of x (the finaliser of MurmurHash3).
 std::uint64_t scrambled(std::uint64_t x) {
     x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
     x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
     return x ^ (x >> 33);
 }
 
-/// Two numbers in [0, 1).
+/// Returns two numbers in [0, 1).
 glm::dvec2 random_place(std::uint64_t seed) {
     constexpr double kUnit = 1.0 / 4294967296.0;
     const std::uint64_t bits = scrambled(seed);
@@ -33,7 +33,7 @@ glm::dvec2 random_place(std::uint64_t seed) {
 
 /// What a pixel's rays found: sums of their weights, which are 1 except for area lights.
 struct Sum {
-    double lit = 0.0, rays = 0.0;  // of those that leave the surface
+    double lit = 0.0, rays = 0.0;  // only of rays that leave the surface
     bool all_lit() const { return lit == rays; }
     bool mixed() const { return lit > 0.0 && lit < rays; }
 };
@@ -43,7 +43,7 @@ public:
     SourceTracer(const TracedWorld& world, const PrimaryHits& hits, const LightItem& light)
         : world_(world), hits_(hits), light_(light), size_(source_size(light)), area_(light_facts(light.kind).area()) {}
 
-    /// Whether the light's middle is in reach and before the surface.
+    /// Returns whether the light's middle is in reach and before the surface.
     bool scored(std::size_t pixel) const {
         if (hits_.triangle[pixel] == kNoTriangle) return false;
         glm::dvec3 to_light;
@@ -108,7 +108,7 @@ private:
     bool area_;
 };
 
-/// Whether a few rays leave open what the pixel sees.
+/// Returns whether a few rays leave open what the pixel sees.
 bool undecided(const std::vector<Sum>& few, const glm::uvec2& size_px, const glm::ivec2& at) {
     const auto sum = [&](int x, int y) {
         return few[static_cast<std::size_t>(y) * size_px.x + static_cast<std::size_t>(x)];

@@ -8,8 +8,8 @@
 /// Ray-traced truth about the shadows of a source with a size.
 namespace gnomon::oracle {
 
-/// The source's size as shadows take it: Light's radius in metres, or the tangent of a sun's angular radius. 0: a
-/// point.
+/// Returns the source's size as shadows take it: Light's radius in metres, or the tangent of a sun's angular radius. 0:
+/// a point.
 double source_size(const LightItem& light);
 
 /// Maps the unit square to the unit disk, equal areas to equal areas (Shirley and Chiu 1997).
@@ -18,9 +18,9 @@ glm::dvec2 on_disk(const glm::dvec2& square);
 struct SourceSampling {
     /// The disk is cut into side² parts of equal area, a ray through a random place of each.
     std::uint32_t side = 16;
-    /// Pixels that see all of the source, or none of it, along (side / 4)² rays, as do all in a square of 5 x 5 pixels
-    /// around them, get no more. What this misses is smaller than what two hundred rays hit on average; a test measures
-    /// it.
+    /// Traces (side / 4)² rays per pixel first. They suffice where all pixels of the 5 x 5 around it see all of the
+    /// source along them, or all see none. What this misses is smaller than what two hundred rays hit on average; a
+    /// test measures it.
     bool first_few = true;
 };
 

@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFloatUnit = 1.0 / (1 << 24);          // relative rounding error of float
 constexpr double kDoubleUnit = 1.1102230246251565e-16;  // 2^-53
 
-// A float ray differs from its double one by at most u|o| + u|td| <= 3uR within the scene; Embree's slab test adds
+// A float ray differs from its double one by at most u|o| + u|td| <= 3uR within the scene. Embree's slab test adds
 // about 3 roundings of (|o| + |box|) per plane, <= 6uR. Boxes wider by 32uR lose nothing.
 constexpr double kPaddingUnits = 32.0;
 // P = o + t*d and dot(n, P - a) round a dozen times on numbers no larger than the world's coordinates.

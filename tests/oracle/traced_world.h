@@ -10,7 +10,7 @@
 #include "tests/oracle/reference_tracer.h"
 #include "tests/oracle/triangle_test.h"
 
-/// The triangles of a snapshot in an Embree tree, and the two questions that can be asked of them. See ReferenceTracer.
+/// The triangles of a snapshot in an Embree tree, and queries for their surfaces and casters. See ReferenceTracer.
 namespace gnomon::oracle {
 
 struct WorldTriangle {
@@ -20,7 +20,7 @@ struct WorldTriangle {
     bool visible = false, mirrored = false, double_sided = false, masked = false;
 };
 
-/// Counter-clockwise side, not normalised; zero or not finite for degenerate triangles.
+/// Returns the normal of the counter-clockwise side, not normalised. It is zero or not finite for degenerate triangles.
 inline glm::dvec3 front_normal(const WorldTriangle& t) {
     const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
     return t.mirrored ? -n : n;
@@ -41,11 +41,11 @@ public:
     const std::vector<WorldTriangle>& triangles() const { return triangles_; }
     const glm::dvec3& origin_ws_m() const { return origin_ws_m_; }
 
-    /// Nearest visible surface with t in [t_min, t_max]; of equal t the lowest triangle number.
+    /// Returns the nearest visible surface with t in [t_min, t_max]; of equal t the lowest triangle number.
     SurfaceHit nearest_surface(const ExactRay& ray, double t_min, double t_max) const;
 
-    /// Number of a caster of these layers that meets the ray at t in (0, t_max), or kNoTriangle. `hint` is tried first
-    /// (an occluder of a nearby ray, or kNoTriangle) and changes only the time that is needed.
+    /// Returns the number of a caster of these layers that meets the ray at t in (0, t_max), or kNoTriangle. `hint` is
+    /// tried first (an occluder of a nearby ray, or kNoTriangle) and changes only the time that is needed.
     std::uint32_t occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint,
                            ShadowLayers layers = kAllShadowLayers) const;
 
@@ -53,10 +53,10 @@ public:
     std::uint32_t farthest_occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle,
                                     ShadowLayers layers) const;
 
-    /// Up to the rounding of double.
+    /// Returns whether the point lies in the triangle's plane, up to the rounding of double.
     bool on_plane(const glm::dvec3& point, std::uint32_t triangle) const;
 
-    /// The tests that decide, for one triangle.
+    /// Decides for one triangle: does it block the ray, or show a surface on it?
     bool blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
                 std::uint32_t triangle, double& t) const;
     bool shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t) const;
@@ -71,7 +71,7 @@ private:
     const assets::MeshLibrary& library_;
     glm::dvec3 origin_ws_m_;
     std::vector<WorldTriangle> triangles_;
-    double padding_m_ = 0.0;      // of Embree's boxes
+    double padding_m_ = 0.0;      // width that Embree's boxes are enlarged by
     double plane_error_m_ = 0.0;  // rounding of the distance from a point to a triangle's plane
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;

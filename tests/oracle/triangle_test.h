@@ -5,8 +5,9 @@
 #include <utility>
 
 /// Ray against triangle in double, watertight: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2013.
-/// A ray that crosses an edge shared by two triangles (same vertex positions) hits at least one of them, because both
-/// compute the same edge function up to its sign. This needs products that are rounded one by one: no contraction.
+/// A ray that crosses an edge shared by two triangles (same vertex positions) hits at least one of them. The reason is
+/// that both compute the same edge function up to its sign. This needs products that are rounded one by one: no
+/// contraction.
 namespace gnomon::oracle {
 
 /// origin + t * direction; the direction need not be unit length. The rest follows from it.
@@ -34,7 +35,8 @@ struct ExactHit {
     double t = 0.0, u = 0.0, v = 0.0, w = 0.0;
 };
 
-/// False if the ray's line misses the triangle or runs in its plane. Both faces are hit; edges belong to the triangle.
+/// Intersects them. Returns false if the ray's line misses the triangle or runs in its plane. Both faces are hit; edges
+/// belong to the triangle.
 inline bool intersect(const ExactRay& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                       ExactHit& hit) {
     const glm::dvec3 pa = a - ray.origin, pb = b - ray.origin, pc = c - ray.origin;

@@ -131,7 +131,7 @@ void SoakWorld::use_everything(const std::function<void()>& run_frame) {
     use_every_light(run_frame);  // rays that may meet a mask have programs of their own
 }
 
-/// Something moves before a map that costs more to draw than rays for all pixels.
+/// Moves a caster before a map that costs more to draw than rays for all pixels.
 void SoakWorld::leave_to_rays(const std::function<void()>& run_frame) {
     constexpr std::uint32_t kLarge_px = 1024;
     world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.resolution_px = kLarge_px; });

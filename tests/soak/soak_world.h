@@ -21,7 +21,7 @@ public:
     void churn();
     /// Runs one frame for each kind of light with each filter, so that whatever is made once has been made.
     void use_everything(const std::function<void()>& run_frame);
-    /// Removes all lights and casters, and runs frames until nothing of them need be held.
+    /// Removes all lights and casters, and runs frames until nothing of them need be kept.
     void clear(const std::function<void()>& run_frame);
 
     static constexpr std::size_t kMostLights = 6, kMostCasters = 24;
@@ -45,8 +45,8 @@ private:
     std::vector<ecs::Entity> lights_, casters_;
 };
 
-/// Bytes that this process holds: its writable private memory, less what the allocator has free in it. Resident memory
-/// would follow where the allocator happens to place things as well: which of its pages are ever touched.
+/// Returns the bytes that this process holds: its writable private memory, less what the allocator has free in it.
+/// Resident memory would also depend on where the allocator happens to place things: which of its pages are touched.
 std::size_t held_bytes();
 
 }  // namespace gnomon

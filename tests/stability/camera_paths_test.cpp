@@ -16,8 +16,8 @@
 #include "tests/long_run.h"
 #include "tests/oracle/fit_stages.h"
 
-/// A sun's fits along the whole paths of the flicker bench, built-in scene, without a GPU: when views step, and how
-/// points pass from one cascade to the next.
+/// A sun's fits along the whole paths of the flicker bench, in the built-in scene, without a GPU. Tests when views
+/// step, and how points pass from one cascade to the next.
 namespace gnomon {
 namespace {
 
@@ -34,8 +34,8 @@ struct Walk {
     int stepped_frames = 0, moved_frames = 0;
     int parted = 0;              // moves that were no step, and no whole number of texels
     int in_bands = 0;            // points that two cascades share, summed over frames
-    int outside = 0;             // points that a cascade which decides does not hold
-    double greatest_fade = 0.0;  // of any cascade's share in what a point shows, from one frame to the next
+    int outside = 0;             // points outside the map of the cascade that decides them
+    double greatest_fade = 0.0;  // greatest change, between two frames, of a cascade's share in a point's visibility
 };
 
 class CameraPaths : public ::testing::Test {
@@ -79,7 +79,7 @@ protected:
     }
 
 private:
-    /// Of each layer in what a point shows; all 0 out of view.
+    /// Shares of the layers in what a point shows; all 0 out of view.
     using Shares = std::array<double, kLayers>;
 
     void extract() {
@@ -97,7 +97,7 @@ private:
                 views.push_back(&view);
         return views;
     }
-    /// Somewhere in the boxes of what receives shadows.
+    /// Adds random points of the receivers' boxes.
     void add_points() {
         std::mt19937_64 random(20260418);
         std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -145,7 +145,7 @@ private:
         const glm::dvec3 q = glm::dvec3(view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f));
         return q.x >= 0.0 && q.y >= 0.0 && q.z >= 0.0 && q.x <= 1.0 && q.y <= 1.0 && q.z <= 1.0;
     }
-    /// As shaders/shadow/lookup/kinds/directional.glsl chooses where maps are held.
+    /// Computes the cascades' shares as shaders/shadow/lookup/kinds/directional.glsl chooses them.
     static Shares shares_at(const std::vector<const ShadowView*>& views, const glm::dvec3& p_ws, double distance_m,
                             Walk& walk) {
         Shares shares{};

@@ -13,15 +13,15 @@ namespace {
 
 class FitNumerics : public ::testing::TestWithParam<LightKind> {};
 
-/// Map coordinates but for a turn of the map by quarters: a sun's rectangle may start from any of its sides, and rounding
-/// decides which. What lies where in the map, and how deep, is the same.
+/// Returns map coordinates that stay the same when the map is turned by quarters. A sun's rectangle may start from any
+/// of its sides, and rounding decides which. What lies where in the map, and how deep, is the same.
 glm::dvec3 folded(const glm::dvec3& q) {
     const double x = std::abs(q.x - 0.5), y = std::abs(q.y - 0.5);
     return {std::min(x, y), std::max(x, y), q.z};
 }
 
-/// By how much float may move a point in the map. A cascade's anchor may be eight of its longest sides away, and the
-/// matrix makes a few roundings (2^-24) of that distance, which count by the shortest of its sides.
+/// Returns how far floats may move a point in the map. A cascade's anchor may be eight of its longest sides away. The
+/// matrix makes a few roundings (2^-24) of that distance. They count relative to the shortest of its sides.
 double tolerance(const ShadowView& view) {
     constexpr double kAnchor = 8.0, kRoundings = 10.0, kPerspective = 5e-5;
     if (view.projection != ViewProjection::orthographic) return kPerspective;
@@ -30,7 +30,7 @@ double tolerance(const ShadowView& view) {
     return kRoundings * kAnchor * 0x1p-24 * std::max({sides.x, sides.y, depth}) / std::min({sides.x, sides.y, depth});
 }
 
-/// The same scene placed elsewhere: the same sets, the same views, and everything at the same place in their maps.
+/// Expects of the scene placed elsewhere the same sets, the same views, and everything at the same place in their maps.
 void expect_same(const SceneSnapshot& scene, double scale, const glm::dvec3& offset) {
     SceneSnapshot other = scene;
     place(other, scale, offset);
@@ -71,7 +71,8 @@ TEST_P(FitNumerics, AMillionMetresAwayTheMapCoordinatesAreTheSame) {
     }
 }
 
-/// A wall edge-on to a high sun, seen from aside through a narrow lens; over it a roof, and a post that darkens nothing of it.
+/// Makes a wall edge-on to a high sun, seen from aside through a narrow lens. A roof is over it, and beside it a post
+/// that darkens nothing of it.
 SceneSnapshot wall_edge_on(const glm::dvec3& at, std::uint32_t cascades) {
     SceneSnapshot s = RandomScene(1).scene(LightKind::directional, 3);
     const math::Aabb wall{{0, -2, -2}, {0, 2, 2}}, roof{{-10, 3, -10}, {10, 4, 10}}, post{{12, -2, -1}, {13, 4, 1}};

@@ -17,19 +17,19 @@ enum class OnGpu {
 struct HardCase {
     const char* name;    // letters and underscores
     const char* breaks;  // what is known to go wrong
-    /// Fills the world. What must hold of any frame (hard_cases_oracle.h) is then judged. Null: no world of its own.
+    /// Fills the world. What must be true of any frame (hard_cases_oracle.h) is then judged. Null: no world of its own.
     void (*build)(World&);
-    /// What must hold of this case besides; may build worlds of its own. Null: nothing.
+    /// Checks what must also be true of this case; may build worlds of its own. Null: nothing.
     void (*check)() = nullptr;
     OnGpu on_gpu = OnGpu::no;
 };
 
 inline void PrintTo(const HardCase& row, std::ostream* out) { *out << row.name << ": " << row.breaks; }
 
-/// All of them, in the order of the list they come from.
+/// Returns all rows: light_cases(), camera_cases(), mesh_cases().
 std::span<const HardCase> hard_cases();
 
-/// Rows about lights and their projections; about cameras; about casters and receivers. hard_cases() joins them.
+/// Returns the rows about lights and their projections; about cameras; about casters and receivers.
 std::span<const HardCase> light_cases();
 std::span<const HardCase> camera_cases();
 std::span<const HardCase> mesh_cases();
@@ -37,7 +37,7 @@ std::span<const HardCase> mesh_cases();
 /// Runs the stages once and expects the oracle to agree. Returns how many points it judged; `darkened`, if given, how
 /// many of them lie in shadow.
 std::size_t expect_sound(World& world, const char* what, std::size_t* darkened = nullptr);
-/// The same of the frame that was run last.
+/// Expects the oracle to agree with the frame that was run last.
 std::size_t expect_sound(const Stages& stages, const char* what, std::size_t* darkened = nullptr);
 
 }  // namespace gnomon::hard

@@ -26,7 +26,7 @@ void camera_in_a_caster(World& w) {
     w.camera({0.0, 0.5, 0.0}, {2.0, 0.0, 1.0});
 }
 void casters_behind_cameras() {
-    // Whoever stands between light and receiver casts, wherever the camera is.
+    // A caster between light and receiver casts, wherever the camera is.
     for (const glm::dvec3& at : {glm::dvec3(0.0, 0.5, 0.0), {1.5, 0.5, 0.1}, {0.6, 0.5, 0.0}}) {
         World w;
         w.ground(6.0);
@@ -159,7 +159,7 @@ void absurd_pictures() {
     }
 }
 
-/// A stable sun over a field.
+/// Makes a field under a sun with stable fits.
 void stable_field(World& w) {
     w.settings = {"fit=stable"};
     field(w);
@@ -197,7 +197,7 @@ void rolls_once() {
     EXPECT_FALSE(first.empty());
 }
 
-/// Where the map's corner lies on the grid of its own texels: whole numbers, if it is snapped.
+/// Computes where the map's corner lies on the grid of its own texels: whole numbers, if it is snapped.
 glm::dvec2 corner_texels(const shadow::ShadowView& view) {
     const glm::dvec3 anchor = view.pose.anchor_ws_m;
     const glm::dvec2 at(glm::dot(anchor, view.pose.axis_u), glm::dot(anchor, view.pose.axis_v));

@@ -34,7 +34,7 @@ void sun_overhead_checks() {
             stages.run();
             EXPECT_GT(expect_sound(w, "a sun along the vertical"), 100u);
             const auto views = stages.views();
-            if (sign > 0.0 && views.empty()) continue;  // it shines from below: nobody between it and the ground
+            if (sign > 0.0 && views.empty()) continue;  // it shines from below: no caster is between it and the ground
             ASSERT_FALSE(views.empty());
             const double texel_m2 = views.front()->plane.texel_u * views.front()->plane.texel_v;
             if (first_texel == 0.0) first_texel = texel_m2;
@@ -174,7 +174,7 @@ void turned_lamps() {
     EXPECT_EQ(still, fitted(0.7853981633974483));
 }
 
-/// A light under a parent that is stretched and turned: its axes are no longer at right angles.
+/// Makes lights under a parent that is stretched and turned: their axes are not at right angles.
 void skewed_light(World& w) {
     yard(w);
     const ecs::Entity sun = w.sun(kSlant), spot = w.spot({0.5, 4.0, 0.5}, {0.3, -1.0, 0.2}, 0.8);

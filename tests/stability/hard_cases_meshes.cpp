@@ -45,7 +45,7 @@ Fitted fitted(Build build) {
     return f;
 }
 
-/// The yard with one entity more is the yard without it.
+/// Expects the fits of the yard with one entity more to be those of the yard without it.
 template <class Add>
 void expect_no_trace_of(Add add) {
     const Fitted with = fitted([&](World& w) {
@@ -235,7 +235,7 @@ void denormals_are_zero() {
     EXPECT_EQ(moved.matrices, still.matrices);
 }
 
-/// A card whose texture is cut out in squares of an eighth of its side.
+/// Makes a card with a texture that is cut out in squares of an eighth of its side.
 void cut_out(World& w) {
     assets::Texture texture{.name = "squares", .width = 64, .height = 64, .rgba = {}};
     for (std::uint32_t y = 0; y < texture.height; ++y)

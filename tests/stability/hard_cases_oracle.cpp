@@ -15,8 +15,8 @@ using Number = long double;
 using Vec = glm::vec<3, Number, glm::defaultp>;
 
 constexpr int kRays = 500;
-constexpr std::size_t kMostPoints = 400;  // per light and kind: every one is compared with every triangle
-constexpr Number kSlack = 1e-12L;         // of long double against what is decided: relative
+constexpr std::size_t kMostPoints = 400;  // per light and kind: every point is compared with every triangle
+constexpr Number kSlack = 1e-12L;         // relative rounding of long double that a decision must exceed
 
 struct Triangle {
     Vec a, b, c;
@@ -49,8 +49,8 @@ std::vector<Triangle> triangles_of(const SceneSnapshot& scene, const assets::Mes
     return all;
 }
 
-/// Ray parameter of the crossing, or NaN: plane first, then three signed areas in that plane. `clear` false: so near an
-/// edge, or so much along the plane, that the answer hangs on the last digits.
+/// Returns the ray parameter of the crossing, or NaN. Tests the plane first, then three signed areas in that plane.
+/// `clear` false: so near an edge, or so much along the plane, that the last digits decide.
 Number crossing(const Ray& ray, const Triangle& t, bool& clear) {
     const Vec normal = glm::cross(t.b - t.a, t.c - t.a);
     const Number toward = glm::dot(normal, ray.way), size = glm::length(normal);
@@ -80,7 +80,7 @@ Ray picture_ray(const ConsumerItem& c, Number x, Number y) {
 }
 
 bool sees(const ConsumerItem& c, const Vec& p) {
-    constexpr Number kClear = 1e-6L;  // of the frustum's border
+    constexpr Number kClear = 1e-6L;  // relative distance from the frustum's border
     const Vec to = p - Vec(c.position_ws_m);
     const Number z = -glm::dot(to, Vec(c.rotation_ws[2]));
     const bool flat = c.projection == CameraProjection::orthographic;
@@ -91,7 +91,7 @@ bool sees(const ConsumerItem& c, const Vec& p) {
            std::abs(glm::dot(to, Vec(c.rotation_ws[1]))) < half_y;
 }
 
-/// All points of receivers on random rays through the picture, whether hidden or not.
+/// Returns all points of receivers on random rays through the picture, hidden or not.
 std::vector<Point> seen_points(const SceneSnapshot& scene, const std::vector<Triangle>& triangles) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> place(-0.999999, 0.999999);
@@ -113,7 +113,7 @@ std::vector<Point> seen_points(const SceneSnapshot& scene, const std::vector<Tri
 }
 
 bool reached(const LightItem& light, const Vec& p) {
-    constexpr Number kClear = 1e-6L;  // of the cone's and the range's border
+    constexpr Number kClear = 1e-6L;  // relative distance from the cone's and the range's border
     if (light.kind == LightKind::directional) return true;
     const Vec to = p - Vec(light.position_ws_m);
     const Number distance = glm::length(to);
@@ -124,8 +124,8 @@ bool reached(const LightItem& light, const Vec& p) {
     return cosine > std::cos(Number(light.outer_cone_rad)) + kClear * std::sin(Number(light.outer_cone_rad));
 }
 
-/// Whether the lamp stands off the triangle's plane by more than its shadows are looked for aside (lamp_offsets.h): a
-/// surface whose plane holds the lamp takes no light of it, and what else lies in that plane darkens nothing there.
+/// Returns whether the lamp stands off the triangle's plane by more than its place is moved aside (lamp_offsets.h). A
+/// surface takes no light from a lamp in its plane, and other surfaces in that plane darken nothing there.
 bool is_off_plane(const LightItem& light, const Triangle& t) {
     if (light.kind == LightKind::directional) return true;
     const Vec lamp(light.position_ws_m), normal = glm::cross(t.b - t.a, t.c - t.a);
@@ -133,7 +133,7 @@ bool is_off_plane(const LightItem& light, const Triangle& t) {
     return std::abs(glm::dot(normal, lamp - t.a)) > 2 * Number(shadow::kClearOfClipping) * reach * glm::length(normal);
 }
 
-/// From the point to the light, way length 1: the light itself; a sun: beyond everything.
+/// Returns the ray from the point to the light. Its parameter 1 is at the light itself, or beyond everything for a sun.
 Ray to_light(const LightItem& light, const Vec& p, Number scene_size) {
     if (light.kind == LightKind::directional) return {p, Vec(light.rotation_ws[2]) * scene_size * 4.0L};
     return {p, Vec(light.position_ws_m) - p};
@@ -168,7 +168,8 @@ std::vector<Point> shadowed_points(const SceneSnapshot& scene, const std::vector
     return points;
 }
 
-/// `touch`: share of the way at its end where a crossing tells nothing: there the light touches the caster.
+/// Returns the instances that block the ray. `touch`: share of the way, at its end, in which crossings do not count:
+/// there the light touches the caster.
 std::vector<std::uint32_t> occluders(const SceneSnapshot& scene, const std::vector<Triangle>& triangles,
                                      const Point& point, const Ray& ray, Number touch) {
     std::vector<std::uint32_t> found;
@@ -177,7 +178,7 @@ std::vector<std::uint32_t> occluders(const SceneSnapshot& scene, const std::vect
         if (!item.casts || t == point.triangle) continue;
         bool clear = false;
         const Number at = crossing(ray, triangles[t], clear);
-        const Number smallest = 1e-9L;  // of the way: coplanar neighbours touch at the point itself
+        const Number smallest = 1e-9L;  // share of the way: coplanar neighbours touch at the point itself
         if (clear && at > smallest && at < 1.0L - std::max(smallest, touch)) found.push_back(triangles[t].instance);
     }
     std::sort(found.begin(), found.end());
@@ -185,7 +186,8 @@ std::vector<std::uint32_t> occluders(const SceneSnapshot& scene, const std::vect
     return found;
 }
 
-/// In the map, with the filter's margin on a sun's, and within the depth range as the kind reads it.
+/// Returns whether the point is in the map and within the depth range as the light's kind reads it. In a sun's map it
+/// must keep the filter's margin.
 bool holds(const shadow::ShadowView& view, const Vec& p, Number margin) {
     const Vec a = p - Vec(view.pose.anchor_ws_m);
     Number q[4];
@@ -301,7 +303,8 @@ private:
                 note(verdict_.missed, light.name + ": caster " + std::to_string(instance) + " darkens " + words(at));
     }
 
-    /// Embree proposes, double decides: against all triangles, one by one, by the same watertight test.
+    /// Checks Embree's candidates: compares the answer with that of all triangles, one by one, by the same watertight
+    /// test in double.
     void audit(const Ray& ray) {
         const glm::dvec3 from = glm::dvec3(ray.from) - origin();
         const oracle::ExactRay exact = oracle::make_ray(from, glm::dvec3(ray.way));

@@ -4,14 +4,14 @@
 
 #include "tests/stability/hard_cases_world.h"
 
-/// What must hold of any frame, decided in long double on the meshes' own triangles, with formulas of its own.
+/// What must be true of any frame, decided in long double on the meshes' own triangles, with formulas of its own.
 namespace gnomon::hard {
 
 struct Verdict {
     std::size_t seen = 0;         // points of receivers that a camera sees and the light reaches
-    std::size_t darkened = 0;     // of those, with an occluder
-    std::size_t outside = 0;      // in no view of a light that has views
-    std::size_t missed = 0;       // a caster that darkens the point is not among its view's casters
+    std::size_t darkened = 0;     // seen points with an occluder
+    std::size_t outside = 0;      // points in no view of a light that has views; of a lamp darkened points only
+    std::size_t missed = 0;       // casters that darken a point and are not among its view's casters
     std::size_t not_finite = 0;   // views with a number that is none, or no volume
     std::size_t no_reason = 0;    // a light without views and without a reason, or with both
     std::size_t wrong_skip = 0;   // skipped although some seen point is darkened

@@ -3,9 +3,9 @@
 
 namespace gnomon::hard {
 
-/// Long triangles that reach from next to the receivers to far before the near plane.
+/// Makes long triangles that reach from next to the receivers to far before the near plane.
 void pancakes(World& world);
-/// Where depths are compared alone they are flattened onto it, and nowhere else.
+/// Checks that filters flatten these triangles onto the near plane if, and only if, they merely compare depths.
 void pancakes_are_made_where_depths_are_compared_alone();
 
 }  // namespace gnomon::hard

@@ -40,7 +40,7 @@ TEST_P(HardCases, HoldUnderEveryFitWhileTheCameraWalks) {
             if (i > 0) world.nudge_cameras();
             stages.run();
         }
-        expect_sound(stages, row.name);  // by now what was held may no longer fit
+        expect_sound(stages, row.name);  // by now fits kept from an earlier frame may be out of date
     }
 }
 

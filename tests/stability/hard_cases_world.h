@@ -30,11 +30,11 @@ struct World {
 
     World();
     std::uint32_t mesh(const game::Shape& shape, std::uint32_t material = 0);
-    /// The mesh of these triangles, each of three corners in a row.
+    /// Adds the mesh of these triangles, each of three corners in a row.
     std::uint32_t triangles(const std::vector<glm::vec3>& corners);
     ecs::Entity place(std::uint32_t mesh, const Transform& transform = {}, bool casts = true);
     ecs::Entity box(const glm::dvec3& min, const glm::dvec3& max, const Transform& transform = {});
-    /// Two triangles at height y = 0 of `at`, facing up; casts nothing.
+    /// Adds two triangles at height y = 0 of `at`, facing up. They cast nothing.
     ecs::Entity ground(double half_m, const glm::dvec3& at = kOrigin);
 
     ecs::Entity light(const Light& light, const glm::dvec3& at, const glm::dvec3& direction, const LightShadow& = {},
@@ -43,15 +43,15 @@ struct World {
     ecs::Entity lamp(const glm::dvec3& at, double range_m = 0.0, const LightShadow& shadow = {},
                      const ShadowTuning& tuning = {});
     ecs::Entity spot(const glm::dvec3& at, const glm::dvec3& direction, double outer_rad, const LightShadow& = {});
-    /// A sun, a lamp and a spot above the origin.
+    /// Adds a sun, a lamp and a spot above the origin.
     void three_lights();
 
     ecs::Entity camera(const glm::dvec3& at, const glm::dvec3& target, const Camera& camera = {});
-    /// From above and aside at the origin.
+    /// Adds a camera that looks at the origin from above and aside.
     ecs::Entity camera() { return camera({5.0, 6.0, 8.0}, kOrigin); }
     void move(ecs::Entity entity, const Transform& unscaled);
     Transform placed(Transform unscaled) const;
-    /// A step and a glance aside of every camera, as one frame of a walk.
+    /// Moves and turns every camera a little, as in one frame of a walk.
     void nudge_cameras();
 };
 
@@ -70,9 +70,9 @@ public:
     const gl::CommandList& commands() const { return commands_; }
     const gl::RecordingDevice& device() const { return device_; }
     const assets::MeshLibrary& library() const { return world_.library; }
-    /// The views of a light of the snapshot.
+    /// Returns the views of a light of the snapshot.
     std::vector<const shadow::ShadowView*> views(std::uint32_t light = 0) const;
-    /// Depth passes that this frame drew.
+    /// Counts the depth passes that this frame drew.
     std::size_t passes() const;
 
 private:

@@ -29,7 +29,7 @@ public:
     virtual ~Lookup() = default;
     virtual void set(const shadow::LightingLight& light, std::span<const shadow::ShadowView* const> views,
                      const glm::dvec3& camera_ws_m) = 0;
-    /// Placed relative to the camera, made of kQuad.
+    /// Sets the caster that triangles belong to: kQuad, placed relative to the camera.
     virtual void set_caster(const InstanceItem& caster) = 0;
     struct Question {
         glm::dvec3 position_ca_m, normal;
@@ -92,7 +92,7 @@ using bench::glsl::CompiledRow;
 using bench::glsl::Lookup;
 using shadow::ShadowView;
 
-constexpr double kLit = 1.0 - 1e-6;  // a filter's weights sum up to 1 but for rounding
+constexpr double kLit = 1.0 - 1e-6;  // a filter's weights sum up to 1 within rounding
 
 /// The plane normal . p = offset_m, p relative to the light's anchor, as one view draws it: depth is linear in texels.
 struct DrawnPlane {

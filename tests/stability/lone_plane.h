@@ -28,31 +28,31 @@ struct LonePlane {
     glm::dvec2 aside_texel{0.0};  // by how much it is snapped; the sign is the slope's
     bool worst = false;           // every texel rounds up as far as it may; otherwise, either way, by `salt`
     std::uint64_t salt = 0;
-    // What its texels show, for filters that ask: two triangles, quad_at_m ± half_u_m ± half_v_m. None, as where a mask
-    // cuts the caster, if these are 0.
+    // What its texels show, for filters that read triangles: two of them, quad_at_m ± half_u_m ± half_v_m. None, as
+    // where a mask cuts the caster, if these are 0.
     glm::dvec3 quad_at_m{0.0}, half_u_m{0.0}, half_v_m{0.0};
-    // What the light pass asks about.
+    // What the light pass looks up.
     glm::dvec3 receiver_m{0.0}, receiver_normal{0.0};
     double error_m = 0.0;  // how far the receiver may be off the plane
 };
 
-/// A point light's, in order.
+/// Returns the views of a point light's six faces, in order.
 std::vector<shadow::ShadowView> cube_views(const glm::dvec3& anchor_ws_m, const shadow::PerspectiveRange& range,
                                            std::uint32_t size_px);
 
 class LonePlaneLookup {
 public:
-    /// can_judge(filter)
+    /// Requires can_judge(filter).
     LonePlaneLookup(PlaneKind kind, ShadowFilter filter, DepthFormat format);
     ~LonePlaneLookup();
-    /// `views`: cube_views(), or one.
+    /// Sets the views (cube_views(), or one), the size of their maps, and the camera.
     void set_maps(std::vector<shadow::ShadowView> views, std::uint32_t size_px, const glm::dvec3& camera_ws_m);
 
     struct Answer {
         bool lit = false;        // wholly
         bool looked_up = false;  // false: lit without a look at the map
     };
-    /// With a share of the automatic offset.
+    /// Looks the receiver up, with this share of the automatic offset.
     Answer look_up(const LonePlane& plane, double bias_share) const;
 
 private:
@@ -60,7 +60,7 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// False if a filter's text is none of shader_structs.inc: nothing can be judged.
+/// Returns whether a filter's text is compiled in shader_structs.inc. If not, nothing can be judged.
 bool can_judge(ShadowFilter filter);
 
 }  // namespace gnomon

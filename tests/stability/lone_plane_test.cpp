@@ -24,8 +24,8 @@ std::vector<ShadowView> spot() {
     return {shadow::perspective_view(glm::dvec3(0.0), glm::dmat3(1.0), {}, kRange, kSize_px)};
 }
 
-/// Rising toward the light by 1 along u and 1/2 along v. The receiver is in the low corner of a texel, as far behind
-/// the plane as it may be, and the plane is drawn as much too near as it may be.
+/// Makes a plane that rises toward the light by 1 along u and 1/2 along v. The receiver is in the low corner of a
+/// texel, as far behind the plane as it may be. The plane is drawn as much too near as it may be.
 LonePlane seen_from_afar(const ShadowView& view) {
     LonePlane plane;
     plane.normal = glm::normalize(view.pose.axis_back - view.pose.axis_u - 0.5 * view.pose.axis_v);
@@ -41,10 +41,11 @@ LonePlane seen_from_afar(const ShadowView& view) {
     return plane;
 }
 
-/// The bias in perspective is inverse to how far the light is from the plane. The receiver's own plane passes error_m
-/// farther from it, here 0.16 mm of 50 mm: divided by that, the offset was 0.3 % short. Of 100 000 random planes of
-/// each combination four had shown it, with errors of 0.04 to 0.23 %. The first: 4.503 mm from a point light of 64 x 64
-/// texels per face, 2 um off, seen from 12.5 m, its offset 0.02 % short.
+/// Proves that the bias in perspective, which is inverse to the light's distance from the plane, takes the plane's own.
+/// The receiver's plane passes error_m farther from the light, here 0.16 mm of 50 mm. Divided by that distance, the
+/// offset would be 0.3 % too small. Among 100 000 random planes of each combination four show this, with errors of 0.04
+/// to 0.23 %. One of them is 4.503 mm from a point light of 64 x 64 texels per face. It is 2 um off and seen from
+/// 12.5 m; its offset would be 0.02 % too small.
 TEST(LonePlane, IsLitWhereTheReceiverSeemsFartherFromTheLightThanThePlaneIs) {
     for (const PlaneKind kind : {PlaneKind::point, PlaneKind::spot})
         for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::pcf_grid}) {
@@ -60,10 +61,11 @@ TEST(LonePlane, IsLitWhereTheReceiverSeemsFartherFromTheLightThanThePlaneIs) {
         }
 }
 
-/// A filter that reads depths carries the receiver's plane to the texels around it. What the offset holds for a step of
-/// the format went with it as a share of the depth, so that less than a step was left where the plane falls away from the
-/// light: 3 of 100 000 random planes in 16 bits, where a mask leaves the nearest texel to decide. As votes see it: the
-/// twentieth of a slope by which `triangles` tells the receiver's own surface hides what is missing.
+/// Proves that the offset contains a whole step of the depth format at every texel that a filter reads. Such a filter
+/// carries the receiver's plane to the texels around it. Carried along as a share of the depth, the step's part of the
+/// offset would shrink where the plane falls away from the light. That would darken 3 of 100 000 random planes in 16
+/// bits, where a mask leaves the nearest texel to decide. Less bias is judged with sharp_4x4 alone. `triangles` would
+/// hide what is missing: it takes depths within a twentieth of the slope for the receiver's own surface.
 TEST(LonePlane, IsLiftedByAWholeStepOfTheFormatWhereItFallsAwayFromTheLight) {
     constexpr shadow::PerspectiveRange kCoarse{0.001, 1.0};  // a step of 16 bits is a 60th of the depth at half the range
     constexpr double kTangent = 7.0, kPlace_texel = 0.5 * kSize_px, kBesideCorner_texel = 1e-3, kLess = 0.9;
@@ -95,9 +97,10 @@ TEST(LonePlane, IsLiftedByAWholeStepOfTheFormatWhereItFallsAwayFromTheLight) {
     }
 }
 
-/// Grazes a plane so that its normal's error may turn it by more than the lamp's distance from it. The offset for that took
-/// the receiver past the lamp: the plane that was carried to the next texel's middle fell the wrong way. Seeds 125 and 148
-/// of RandomPlanes had one such plane each, at a cosine of 1/700, where no triangle is known.
+/// Grazes a plane so that its normal's error may turn it by more than the lamp's distance from it. An offset for the
+/// whole error would take the receiver past the lamp. The plane, carried to the next texel's middle, would then fall
+/// the wrong way. Seeds 125 and 148 of RandomPlanes have one such plane each, at a cosine of 1/700, where no triangle
+/// is known.
 TEST(LonePlane, IsLitWhereItsNormalsErrorExceedsTheLampsDistanceFromIt) {
     constexpr double kCosine = 1.0 / 731.0, kDistance_m = 0.3;
     constexpr int kTurns = 360;

@@ -117,7 +117,7 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     return light;
 }
 
-/// What may have been counted: the truth of another time, a few distances, all, none, or of another camera.
+/// Draws the depths of an earlier picture: a few distances, all or none, and sometimes those of another camera.
 SampledDepths RandomFits::depths(const ConsumerItem& camera) {
     SampledDepths depths{.camera = chance(0.1) ? ecs::Entity{77, 7} : camera.entity};
     const double share = chance(0.2) ? 1.0 : number(0.0, 0.2);

@@ -34,7 +34,7 @@ std::uint64_t fit_count() {
 constexpr Real kInset = 1e-9L;
 /// A ray that passes less of a box than this touches a corner: rounding decides.
 constexpr Real kLeastPassage = 1e-6L;
-/// Every so many fits are made again elsewhere and at another size.
+/// Interval, in fits, at which a fit is made again elsewhere and at another size.
 constexpr std::uint64_t kMoveEvery = 8;
 
 struct Tally {
@@ -74,7 +74,7 @@ protected:
         if (frame.fitted.views.empty() == (frame.statuses[0].skipped() == Reason::none)) ++tally.unflagged;
     }
 
-    /// What `count` drawn fits must have shown.
+    /// Expects what `count` random fits must have shown.
     void expect_proven(std::uint64_t count) const {
         EXPECT_EQ(tally.not_finite, 0u);
         EXPECT_LE(most_fits, kMaxFits);
@@ -82,13 +82,14 @@ protected:
         EXPECT_EQ(tally.outside, 0u);
         EXPECT_EQ(tally.missed, 0u);
         EXPECT_EQ(tally.scale_differs, 0u);
-        // Where two choices are equal but for rounding, another place may take the other one.
+        // Where two choices are equal within rounding, the other may be taken at another place.
         EXPECT_LE(tally.move_differs, tally.moved / 100);
         EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
         EXPECT_GT(tally.blockers, count / 8);
     }
 
-    /// A point of the box that the camera is likely to see: a corner, any, or where the edge of its sight meets the box.
+    /// Draws a point of the box that the camera is likely to see. It is any point, a corner, or a point where the edge
+    /// of the camera's sight meets the box.
     Vector sample(const ConsumerItem& camera, const math::Aabb& box) {
         const double which = random.number(0.0, 1.0);
         glm::dvec3 p(random.number(box.min.x, box.max.x), random.number(box.min.y, box.max.y), random.number(box.min.z, box.max.z));
@@ -107,7 +108,7 @@ protected:
         return oracle::exact(glm::clamp(at, box.min, box.max));
     }
 
-    /// Where the light's rays come from: a sun's eye if it has one.
+    /// Returns the light as its rays come: a point light at the eye for a sun that has one, else the light itself.
     static LightItem source_of(const LightItem& light, const ShadowFrame& frame) {
         LightItem source = light;
         if (!frame.fitted.lights[0].request.projection.perspective_sun) return source;
@@ -125,7 +126,8 @@ protected:
         return source;
     }
 
-    /// What a given depth range or a given eye leaves out is lit: then only what a view holds counts.
+    /// Returns whether a given depth range or a given eye leaves out a part of the scene. That part is lit: then only
+    /// points in a view count.
     static bool leaves_out(const ShadowRequest& demand, const LightItem& light) {
         return demand.projection.near_m > 0.0 || demand.projection.far_m > 0.0 ||
                (demand.projection.perspective_sun && light.tuning.projection.eye_distance_m > 0.0f);
@@ -149,7 +151,7 @@ protected:
             dark = true;
             if (by.wants_view && (in_view || !partial)) tally.missed += by.view && lists(frame, *by.view, c) ? 0 : 1;
             if (by.wants_single && (in_single || !partial)) tally.missed += lists(frame, *by.single, c) ? 0 : 1;
-            // A cascade may fade into any later one that holds the point.
+            // A cascade may fade into any later cascade with the point in its map.
             for (const ShadowView& view : frame.fitted.views)
                 if (view.projection == ViewProjection::orthographic && oracle::holds(view, p, size_px, reach))
                     tally.missed += lists(frame, view, c) ? 0 : 1;
@@ -180,7 +182,7 @@ protected:
         }
     }
 
-    /// What must be equal, bit for bit, at 2^power times the size.
+    /// Compares what must be equal, bit for bit, at 2^power times the size.
     void judge_scale(SampledScene scene, const ShadowFrame& frame, int power) {
         scale(scene, power);
         const ShadowFrame& there = fit(scene, elsewhere);
@@ -202,7 +204,7 @@ protected:
         tally.scale_differs += same ? 0 : 1;
     }
 
-    /// Elsewhere: the same casters and receivers, maps of the same size.
+    /// Judges the scene moved elsewhere: its points, and that it has as many maps, with texels of the same size.
     void judge_move(SampledScene scene, const ShadowFrame& frame, const glm::dvec3& by_m) {
         move(scene, by_m);
         const ShadowFrame& there = fit(scene, elsewhere);
@@ -217,7 +219,7 @@ protected:
         tally.move_differs += same ? 0 : 1;
     }
 
-    /// A sun that one camera sees, as warped as it may be, or less.
+    /// Sets a sun that one camera sees, warped as much as it may be, or less.
     void warp(SceneSnapshot& scene) {
         LightItem& light = scene.lights[0];
         light.tuning.cascades.fit = ShadowFit::tight;

@@ -87,7 +87,7 @@ public:
     glm::dvec3 camera_ws_m{0.0};
 
 private:
-    /// Of a texel: beside its border, beside its middle, or anywhere.
+    /// Draws a place in a texel, 0 to 1: beside its border, beside its middle, or anywhere.
     double part() {
         constexpr double kBeside = 0.01;
         const double near = random_.power(-6.0, -2.0) + 1e-9;
@@ -116,7 +116,7 @@ private:
         views.push_back(shadow::orthographic_view(box, size_px));
         if (kind_ != PlaneKind::warped_sun) return;
         ShadowView& view = views.back();
-        // Of its warped plane the map shows what lies on this side of the horizon.
+        // The map shows the part of its warped plane on this side of the horizon.
         const double farthest_m = glm::length(box.half_extent_m) + glm::length(box.centre_m);
         const double turn = random_.between(0.0, 6.28);
         view.plane.warp = glm::dvec2(std::cos(turn), std::sin(turn)) * (random_.between(0.0, 0.97) / farthest_m);
@@ -129,15 +129,15 @@ private:
     glm::dvec3 anchor_ws_m_{1234.5, -67.8, 910.1};
 };
 
-/// Unit, the angle to `to_light` of a tangent that is any power of ten between.
+/// Draws a unit normal. The tangent of its angle to `to_light` is any power of ten from 0.001 to 1000.
 glm::dvec3 sloped_normal(Random& random, const glm::dvec3& to_light, double& tangent) {
     tangent = random.power(-3.0, 3.0);
     const glm::dvec3 aside = glm::normalize(glm::cross(to_light, random.direction()));
     return glm::normalize(to_light + aside * tangent);
 }
 
-/// A quad of the plane around the receiver, off it as the plane is: how a position is rounded on its way to the map is
-/// no matter between it and the casters' corners.
+/// Sets the quad of the plane around the receiver, as far off it as the plane is. Rounding on the way to the map does
+/// not matter between the receiver and the casters' corners.
 void show_quad(LonePlane& plane, const glm::dvec3& place_m, const glm::dvec3& to_light, double texel_m) {
     std::mt19937_64 random(plane.salt);  // what else is random of a plane does not depend on it
     std::uniform_real_distribution<double> share(-0.5, 0.5);
@@ -151,7 +151,7 @@ void show_quad(LonePlane& plane, const glm::dvec3& place_m, const glm::dvec3& to
     plane.quad_at_m = plane.receiver_m + off_m + share(random) * plane.half_u_m + share(random) * plane.half_v_m;
 }
 
-/// Of any slope, drawn and seen as docs/explanation/bias.md says ("What is tested").
+/// Draws a plane of this normal, drawn and seen as docs/explanation/bias.md describes ("What is tested").
 LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& place, const glm::dvec3& normal) {
     const PlaneBounds bounds = plane_bounds();
     LonePlane plane;

@@ -34,7 +34,7 @@ TEST_P(RandomPlanes, AreLitWithTheAutomaticBiasAndDarkInPlacesWithLess) {
     const shadow::FilterRow& filter = shadow::filter_row(GetParam().filter);
     if (!can_judge(filter.id)) GTEST_SKIP() << filter.name << " is not among the rows that are compiled as C++";
     const std::uint64_t count = plane_count(), seed = print_seed();
-    std::uint64_t dark_with_less = 0;  // of triangles, in few planes: their texels are asked where their corners cannot be
+    std::uint64_t dark_with_less = 0;  // few with `triangles`: its texels decide only where corners cannot
     for (const shadow::DepthFormatRow& format : shadow::kDepthFormats) {
         const PlaneTally tally = judge_planes(GetParam().kind, filter.id, format.id, count, seed);
         char line[160];

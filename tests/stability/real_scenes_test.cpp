@@ -15,7 +15,7 @@
 #include "tests/unit/shadow/fitting/directional/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// What fits waste on scenes that others made: every file of the test data, seen by its first camera, with a sun for
+/// What fits waste on scenes that others made. Every file of the test data is seen by its first camera, with a sun for
 /// each fit, a lamp and a spot.
 namespace gnomon::shadow {
 namespace {
@@ -34,7 +34,7 @@ LightItem light_of(LightKind kind) {
     return light;
 }
 
-/// Nothing: the file is refused, or holds nothing to see.
+/// Returns the snapshot of a file's scene. Nothing: the file is refused, or contains nothing to see.
 std::optional<SceneSnapshot> snapshot_of(const std::string& name) {
     auto scene = assets::load_gltf(test::data_folder() / name);
     if (!scene) return std::nullopt;
@@ -64,7 +64,8 @@ std::optional<SceneSnapshot> snapshot_of(const std::string& name) {
     return snapshot;
 }
 
-/// Equal for scenes whose boxes and camera are: a fit sees no more. One set of files is 166 times the same quad.
+/// Returns numbers that are equal for scenes with equal boxes and camera: a fit sees no more. One set of files has the
+/// same quad 166 times.
 std::vector<double> looks_of(const SceneSnapshot& scene) {
     std::vector<double> looks;
     const auto add = [&](const glm::dvec3& v) { looks.insert(looks.end(), {v.x, v.y, v.z}); };
@@ -80,7 +81,7 @@ std::vector<double> looks_of(const SceneSnapshot& scene) {
 struct Found {
     std::size_t scenes = 0;
     std::vector<double> tight, quantised, depth_gain;
-    double stable_off = 0.0;  // of the sphere's radius
+    double stable_off = 0.0;  // share of the sphere's radius
     std::size_t spheres = 0;
 };
 

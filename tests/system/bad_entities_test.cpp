@@ -5,7 +5,7 @@
 #include "shaders/bindings.h"
 #include "tests/system/frame_fixture.h"
 
-/// What cannot be used is left out, reported, and comes back when mended; nobody else notices.
+/// What cannot be used is left out, reported, and comes back when mended. Nothing else changes.
 namespace gnomon {
 namespace {
 
@@ -23,7 +23,7 @@ protected:
         lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
         victim = world.add_mesh(kBox, {1.5, 1, 0}, true);
     }
-    /// Entity and reason of what was dropped, as text.
+    /// Returns entity and reason of what was dropped, as text.
     std::vector<std::string> dropped() const {
         std::vector<std::string> all;
         for (const DroppedEntity& d : frame->report().dropped)

@@ -20,7 +20,7 @@ protected:
         });
     }
     void move_box() { world.move(stage.box, {0.001 * ++moves, 1, 0}); }
-    /// In so many frames with a box that moves.
+    /// Runs `frames` frames with a box that moves. Returns how many depth passes they draw.
     int draws_in(int frames) {
         int drawn = 0;
         for (int i = 0; i < frames; ++i) {
@@ -30,7 +30,7 @@ protected:
         }
         return drawn;
     }
-    /// A budget between what looking up takes and what drawing takes besides, at that share of it.
+    /// Sets a budget that suffices for lookups, and for this share of what drawing takes besides.
     void leave(double share) {
         settings.shadow_budget.gpu_ms = 1.0e3f;
         draws_in(60);

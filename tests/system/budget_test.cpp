@@ -41,7 +41,7 @@ struct Level {
         frame->run(world, settings);
         return frame->report();
     }
-    /// From above everything is seen.
+    /// Moves the camera to where everything is seen: above, looking down.
     void look_down() {
         world.patch<Transform>(camera, [](Transform& t) {
             t.translation_m = {0.0, 90.0, 40.0};
@@ -170,8 +170,8 @@ TEST_F(Budgets, DoNotOscillateWhileTheCameraWalks) {
     EXPECT_LE(mean_us, 1.02e3 * static_cast<double>(kGpu_ms));
 }
 
-/// Share of the picture that a light shines on, told apart from what the system does: rays through the pixels meet the
-/// ground where the light reaches or does not.
+/// Returns the share of the picture that a light shines on, independently of the system. Counts rays through pixels
+/// that meet the ground where the light reaches.
 double lit_share(const LightItem& light, const ConsumerItem& camera) {
     constexpr int kWide = 320, kHigh = 180;
     const double high = std::tan(0.5 * camera.fov_y_rad), wide = high * kWide / kHigh;
@@ -188,7 +188,7 @@ double lit_share(const LightItem& light, const ConsumerItem& camera) {
     return static_cast<double>(lit) / (kWide * kHigh);
 }
 
-/// How often one of `shed` is seen less than one of `kept`: 1 always, 1/2 by chance.
+/// Returns how often one of `shed` is seen less than one of `kept`: 1 always, 1/2 by chance.
 double chance_that_less_is_seen(const std::vector<double>& shed, const std::vector<double>& kept) {
     double less = 0.0;
     for (const double s : shed)

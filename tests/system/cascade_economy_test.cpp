@@ -20,7 +20,7 @@ protected:
     void walk(double step_m) {
         world.registry.patch<Transform>(stage.camera, [step_m](Transform& t) { t.translation_m.x += step_m; });
     }
-    /// Depth passes drawn over a walk, after the first frame.
+    /// Counts the views drawn over a walk, after the first frame.
     std::size_t drawn_on_a_walk(double step_m, int steps) {
         step();
         EXPECT_GT(light("sun").counts.views_drawn, 0u);

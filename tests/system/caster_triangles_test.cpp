@@ -3,7 +3,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
-/// What a light whose filter reads triangles asks for, and that no other light pays for it.
+/// What a light needs if its filter reads triangles, and that no other light pays for it.
 namespace gnomon {
 namespace {
 
@@ -24,7 +24,7 @@ protected:
     struct Bindings {
         std::vector<std::uint32_t> units, storage;
     };
-    /// That the list binds to something.
+    /// Returns the units and storage bindings that the list binds something to.
     Bindings bindings() const {
         Bindings found;
         for (const gl::Command& c : frame->commands().commands) {
@@ -115,7 +115,7 @@ TEST_F(CasterTriangles, OfALightThatReadsThemNoMoreAreFreed) {
 }
 
 TEST_F(CasterTriangles, NameTheirInstanceAndTheFirstOfTheirDraw) {
-    // Its first half is opaque and its second masked: two draws, whose triangles are counted apart.
+    // The first half of the mesh is opaque and its second masked: two draws, each with a count of triangles of its own.
     const ecs::Entity mixed = world.add_mesh(kMixedBox, {1, 1, 0}, true);
     const ecs::Entity second = world.add_mesh(kMixedBox, {-1, 1, 0}, true);
     add_light(LightKind::spot, "lamp", ShadowFilter::triangles);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kMap_px = 256;
 constexpr std::uint32_t kWidth = 64, kHeight = 32;
-constexpr std::uint32_t kAlign = 256;  // of the recording device
+constexpr std::uint32_t kAlign = 256;  // the recording device's alignment of uniforms, bytes
 
 class CommandListTest : public FrameTest {
 protected:
@@ -22,7 +22,7 @@ protected:
         const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
         world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px = kMap_px; });
     }
-    /// The id of the only object of that kind and label that the frame made.
+    /// Returns the id of the only object of that kind and label that the frame made.
     std::uint32_t id(gl::ResourceCall::Kind kind, const std::string& label) const {
         std::uint32_t found = 0;
         for (const gl::ResourceCall& call : device.resource_calls()) {
@@ -64,8 +64,8 @@ std::vector<gl::Command> CommandListTest::expected() const {
     const TextureHandle depth = texture("surface depth"), sum = texture("light sum");
     const Rect picture{0, 0, kWidth, kHeight}, map{0, 0, kMap_px, kMap_px}, luminance{0, 0, 256, 256};
 
-    // Sizes: two 64-byte instances; one 8-byte draw item, then two; a depth view padded to the alignment;
-    // camera, ambient and exposure each padded, then one light record.
+    // Sizes: two 64-byte instances; one 8-byte draw item, then two; a depth view padded to the alignment. Then camera,
+    // ambient and exposure, each padded, and one light record.
     constexpr std::uint32_t kInstances = 2 * 64, kDepthItems = 8, kView = kAlign, kItems = 2 * 8;
     constexpr std::uint32_t kLight = 13 * 16 + 8 * 144, kUniforms = 3 * kAlign + kLight;
     constexpr std::uint32_t kBoxFirst = 6, kBoxCount = 36, kPlaneCount = 6;

@@ -19,7 +19,7 @@ std::size_t placed_triangles(const FrameSystem& frame, const assets::MeshLibrary
     return triangles;
 }
 
-/// Two frames, the second one of a moved scene. The triangles that the scene places.
+/// Runs two frames, the second one of a moved scene. Returns the number of triangles that the scene places.
 std::size_t run_frames(assets::SceneData scene, const std::string& name) {
     constexpr double kLater_s = 0.4;
     ecs::Registry world;

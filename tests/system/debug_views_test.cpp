@@ -26,7 +26,7 @@ protected:
             if (call.label == label) return call.id;
         return 0;
     }
-    /// What the last frame did beyond `without`.
+    /// Returns the commands that the last frame has beyond `without`.
     std::vector<gl::Command> added_to(const gl::CommandList& without) const {
         const auto& all = frame->commands().commands;
         EXPECT_GE(all.size(), without.commands.size());

@@ -282,7 +282,7 @@ TEST_F(DepthPasses, ReusedMapsAreStillBoundForLighting) {
 
 class SolidCasters : public DepthPasses {
 protected:
-    /// How the depth passes cull, one entry per pipeline that they set.
+    /// Returns how the depth passes cull, one entry per pipeline that they set.
     std::vector<gl::CullMode> culling() const {
         std::vector<gl::CullMode> modes;
         for (const Pass& pass : depth_passes())

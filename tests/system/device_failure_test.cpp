@@ -3,8 +3,8 @@
 #include "systems/shadow/maps/map_cache.h"
 #include "tests/system/frame_fixture.h"
 
-/// A device that refuses what it is asked for: the frame goes on, the light is lit, the report says why,
-/// and the shadow is back within a second after the fault has ended.
+/// A device that refuses what is requested of it. The frame goes on, the light is lit, and the report gives the reason.
+/// The shadow is back within a second after the fault has ended.
 namespace gnomon {
 namespace {
 
@@ -17,7 +17,7 @@ using ::testing::NiceMock;
 using ::testing::Return;
 using ::testing::SizeIs;
 
-/// Passes every call on to a recording device unless a test says otherwise.
+/// Passes every call on to a recording device unless a test sets something else.
 class MockDevice : public gl::Device {
 public:
     MockDevice() {
@@ -79,7 +79,7 @@ protected:
                 for (const gl::PipelineState& s : p.pipelines) labels.push_back(device.recording.program(s.program)->label);
         return labels;
     }
-    /// The picture is drawn whole: surfaces, one pass for the light without shadow, exposure.
+    /// Expects that the picture is drawn whole: surfaces, one pass for the light without shadow, exposure.
     void expect_lit(Reason why) {
         std::vector<std::string> groups;
         for (const Pass& p : passes())
@@ -208,7 +208,7 @@ TEST_P(DeviceFailure, ADepthShaderThatDoesNotCompileLeavesTheLightLit) {
     EXPECT_CALL(device, create_program).Times(::testing::AnyNumber());
     EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, "depth opaque")))
         .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::compile_failed));
-    for (int i = 0; i < 3; ++i) {  // asked for once, not in every frame
+    for (int i = 0; i < 3; ++i) {  // requested once, not in every frame
         step();
         expect_lit(Reason::depth_program_failed);
         EXPECT_THAT(depth_passes(), IsEmpty());
@@ -230,7 +230,7 @@ TEST_P(DeviceFailure, AFilterThatDoesNotCompileLeavesOneTapOfTheSameMap) {
     EXPECT_CALL(device, create_program).Times(::testing::AnyNumber());
     EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, HasSubstr("filters/pcf/hardware_2x2"))))
         .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::compile_failed));
-    for (int i = 0; i < 3; ++i) {  // asked for once, not in every frame
+    for (int i = 0; i < 3; ++i) {  // requested once, not in every frame
         step();
         EXPECT_EQ(report().state, LightState::degraded);
         EXPECT_STREQ(reason_code(report().reason), "filter_program_failed");

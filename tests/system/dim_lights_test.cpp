@@ -32,7 +32,7 @@ protected:
     void set(ecs::Entity lamp, float candela) {
         world.registry.patch<Light>(lamp, [candela](Light& l) { l.intensity = candela; });
     }
-    /// Candela of a lamp there that adds no more than that many steps, by the report of a brighter one.
+    /// Returns the candela of a lamp there that adds `steps` display steps at most, by the report of a brighter one.
     float candela_of(double steps) {
         const ecs::Entity lamp = add_lamp("probe", 1000.0f);
         step();
@@ -135,13 +135,13 @@ protected:
         DimLightsTest::SetUp();
         settings.repeatable = true;
     }
-    /// What the device will read from now on.
+    /// Sets the exposure that the device will read back from now on.
     void answer(double exposure) {
         const float scale = static_cast<float>(exposure);
         const auto bytes = std::as_bytes(std::span(&scale, 1));
         device.script_readback("exposure to read", {bytes.begin(), bytes.end()});
     }
-    /// At which `candela` add so many steps.
+    /// Returns the exposure at which a lamp of `candela` adds `steps` display steps.
     double exposure_of(double steps, float candela) {
         settings.exposure_ev = 10.0f;
         return steps / 0.1 * static_cast<double>(lighting::exposure_scale(10.0f)) *

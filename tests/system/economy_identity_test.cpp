@@ -11,8 +11,8 @@
 #include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 
-/// Scripted runs in which anything may happen, on the recording device: what lighting is told, and what the maps that
-/// it reads would hold, is the same with economy=off, where every view is drawn in every frame.
+/// Random runs in which anything may happen, on the recording device, as usual and with economy=off. The latter draws
+/// every view in every frame. Lighting's inputs are the same, and the maps that it reads would contain the same.
 namespace gnomon {
 namespace {
 

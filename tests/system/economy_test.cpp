@@ -11,7 +11,7 @@ using ::testing::IsEmpty;
 
 class Economy : public FrameTest {
 protected:
-    /// Whatever there is for the sake of shadows alone: what was made and lives, by label.
+    /// Returns the labels of all live objects that exist for shadows alone.
     std::vector<std::string> shadow_objects() const {
         std::vector<std::string> labels = device.live_labels();
         std::erase_if(labels, [](const std::string& label) {

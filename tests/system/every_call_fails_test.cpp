@@ -15,7 +15,7 @@ struct Scenario {
     FaultScene (*make)();
 };
 
-/// Calls from one that fails to the next. Under sanitizers failures and spans begin at calls of their own, so that each
+/// Calls from a failing one to the next. Under sanitizers failures and spans begin at calls of their own, so that each
 /// call fails in some.
 constexpr std::uint64_t kStride = kSanitized ? 8 : 1;
 
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                                          gl::Failure::compile_failed, gl::Failure::context_lost)),
     name_of);
 
-/// Whatever fails of rays and sheets fails in the same way for the executor's every reason.
+/// Fails objects of rays and sheets for one reason only: the executor treats them in the same way for every reason.
 INSTANTIATE_TEST_SUITE_P(
     EachFailureOfRays, EveryCallFails,
     ::testing::Combine(::testing::Values(Scenario{"Exact", exact_scene}), ::testing::Values(gl::Failure::out_of_memory)),

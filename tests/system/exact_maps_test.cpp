@@ -137,7 +137,7 @@ TEST_F(ExactMaps, AreDoneWithoutWhereThereIsNoRoom) {
     }
 }
 
-/// 64 x 36 pixels against 2048 x 2048 texels.
+/// Sets 64 x 36 pixels against 2048 x 2048 texels.
 TEST_F(ExactMaps, ThatChangeAndCostMoreThanRaysForAllPixelsAreLeftToThem) {
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
     set(lamp, [](LightShadow& s) { s.resolution_px = 2048; });

@@ -4,7 +4,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
-/// Whatever a light falls back to while its pictures are recorded, its report says how it is looked up, and how well.
+/// If a light falls back while its pictures are recorded, its report states how it is looked up, and how well.
 namespace gnomon {
 namespace {
 
@@ -14,8 +14,8 @@ using ::testing::IsEmpty;
 constexpr std::uint32_t kSize_px = 128;
 const char* const kLamp = "lamp";
 
-/// Of the programs that a list draws the light with, those of its shadow: their filters' names, sorted. `group`: whose
-/// passes, beside depth passes, are looked at.
+/// Returns the names, sorted, of the filters in the programs that draw the light. `group`: the group of passes in which
+/// it looks, depth passes excepted.
 std::vector<std::string> drawn_filters(const std::vector<Pass>& passes, const gl::RecordingDevice& device,
                                        const std::string& group = kLamp) {
     std::set<std::string> names;
@@ -50,7 +50,7 @@ protected:
     const LightReport& lamp() const { return light(kLamp); }
     std::vector<std::string> drawn() const { return drawn_filters(passes(), device); }
 
-    /// What is said is what is drawn.
+    /// Expects that the report states what is drawn.
     void expect_agreement() const {
         if (lamp().state == LightState::skipped) {
             EXPECT_THAT(drawn(), IsEmpty());
@@ -165,21 +165,21 @@ TEST_P(FallbackReportOf, SaysWhatIsDrawnAndAgainWhenTheFaultIsOver) {
 
 INSTANTIATE_TEST_SUITE_P(EachLoss, FallbackReportOf, ::testing::ValuesIn(kLosses));
 
-/// What rays walked is gone, and what is said of it with it.
+/// Loses the trees that rays walked: the report must not count them.
 TEST_F(FallbackReport, SaysSoWhereTheTreesAreLostThatThereWere) {
     add_light(LightKind::spot, kExact);
     step();
     ASSERT_EQ(lamp().filter.filter, kExact);
     const std::uint64_t trees = frame->report().rays.bytes;
     device.fail_label("ray triangles", gl::Failure::out_of_memory);
-    world.add_mesh(kSolidBox, {1.5, 1, 0}, true);  // whose tree is a new one
+    world.add_mesh(kSolidBox, {1.5, 1, 0}, true);  // its mesh needs a new tree
     step();
     expect_fallback(kHard, Reason::buffer_failed);
     EXPECT_THAT(map_labels(device, "ray tr"), ElementsAre("ray tree of instances"));
     EXPECT_LT(frame->report().rays.bytes, trees);
 }
 
-/// Neither a map nor a ray: the light is lit, and says so.
+/// Refuses the light both its map and its rays: it is lit, and its report states that.
 TEST_F(FallbackReport, SaysThatALightIsLitThatLosesItsMapAndItsRays) {
     add_light(LightKind::spot, kExact);
     for (const char* label : {"ray triangles", "shadow map"}) device.fail_label(label, gl::Failure::out_of_memory);

@@ -40,8 +40,8 @@ bool is_loss(Reason reason) {
     }
 }
 
-/// The filter by which the light's own passes of the picture look its shadow up; automatic: they do not. Where they are
-/// of two, the last.
+/// Returns the filter by which the light's own passes of the picture look its shadow up. Automatic: they do not. If
+/// they use two filters, it is the last.
 ShadowFilter drawn_filter(const std::vector<Pass>& passes, const std::string& light,
                           const gl::RecordingDevice& device) {
     ShadowFilter drawn = ShadowFilter::automatic;
@@ -76,7 +76,8 @@ FaultPlay::FaultPlay(FaultScene scene) : scene_(std::move(scene)) {
     }
 }
 
-/// False: refused. Then nothing may be left behind; the host tries again when the fault is over.
+/// Sets the frame up under the fault. False: refused. Then nothing may be left behind, and the host tries again without
+/// the fault.
 bool FaultPlay::set_up(Host& host, const Fault& fault) {
     auto made = FrameSystem::create(*host.device, *scene_.library);
     if (!made) {
@@ -111,7 +112,7 @@ std::vector<FaultPlay::LightOutcome> FaultPlay::run_frame(Host& host, int index)
     return lights;
 }
 
-/// What the report says is what was drawn: no light loses anything in silence.
+/// Expects that the report states what was drawn: no light loses anything in silence.
 void FaultPlay::expect_consistent(const std::vector<LightOutcome>& lights, int index, bool picture) const {
     const auto& sound = sound_[static_cast<std::size_t>(index)];
     ASSERT_EQ(lights.size(), sound.size());
@@ -135,7 +136,7 @@ void FaultPlay::expect_consistent(const std::vector<LightOutcome>& lights, int i
     }
 }
 
-/// The lights that say they lost something are those that the call was made for.
+/// Expects that the lights that report a loss are exactly the lights that the call was made for.
 void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call& call) const {
     std::vector<std::string> lost, expected;
     for (const LightOutcome& light : lights)
@@ -145,7 +146,7 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
     const bool of_all = is_sampler || call.label == "caster triangles" || call.label == "caster masks" ||
                         starts_with(call.label, "catcher ") || call.label == "caught light" ||
                         call.label == "caught light, depth" || (call.frame == 0 && call.label == "instances");
-    // Whoever asks by rays shares them.
+    // All lights with rays share these.
     bool of_rays = call.label.find("as found") != std::string::npos;
     for (const char* shared : {"ray ", "sheet ", "shadow sheet ", "surface places", "surface with places",
                                "verdicts of maps", "answers of rays", "pixels for rays"})

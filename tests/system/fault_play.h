@@ -24,12 +24,12 @@ class FaultPlay {
 public:
     explicit FaultPlay(FaultScene scene);
 
-    /// create_*, submit and read_buffer calls of set-up and the faulty frames, if nothing fails.
+    /// Returns the number of create_*, submit and read_buffer calls of set-up and the faulty frames, if nothing fails.
     std::size_t calls() const { return calls_.size(); }
     bool is_creation(std::uint64_t call) const { return !calls_.at(call).is_submission && !calls_.at(call).is_reading; }
 
-    /// Fails the test unless, with this fault, set-up is refused whole or every frame is delivered, each light that
-    /// lost something says so, the shadows come back, and nothing is misused or left behind.
+    /// Plays the scene with this fault and checks the outcome. Set-up is refused whole, or every frame is delivered.
+    /// Each light that lost something reports it, the shadows come back, and nothing is misused or left behind.
     void check(const Fault& fault);
 
     static constexpr int kFaultyFrames = 3, kMostFramesToRecover = 60;
@@ -49,7 +49,7 @@ private:
         std::uint64_t bytes;
         bool samples_map;  // in its own pass
         std::string_view filter_file;
-        ShadowFilter drawn, said;  // what that pass looks up by, and what the report says
+        ShadowFilter drawn, said;  // filter of that pass's lookups, and filter in the report
         double predicted_error_px;
         bool keeps_max_error;
     };

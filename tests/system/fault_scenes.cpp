@@ -82,7 +82,8 @@ FaultScene catcher_scene() {
 }
 
 FaultScene courtyard_scene() { return courtyard(ShadowTuning::Cascades{}.splits, ShadowTuning::Cascades{}.fit); }
-// A held fit would go on from what it held while depths were missing, not from what it holds without a fault.
+// Tight, because other fits depend on earlier ones. They would go on from a fit made while depths were missing, not
+// from the fit without a fault.
 FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled, ShadowFit::tight); }
 
 }  // namespace gnomon

@@ -14,19 +14,20 @@ struct FaultScene {
     std::function<void(int frame)> play;  // brings the world to that frame, from the one before or to the first
 };
 
-/// A plane, boxes of every kind of material, a light of each kind; frame 1 brings one box more than the instance
-/// buffer holds.
+/// Makes a plane, boxes of every kind of material, and a light of each kind. Frame 1 brings one box more than the
+/// instance buffer holds.
 FaultScene box_scene();
 
-/// The same with lights that ask by rays: of a point, with a size, and one that has no map.
+/// Makes a scene of boxes with lights that test by rays: without a size, with a size, and without a map.
 FaultScene exact_scene();
 
 /// Makes a plane that catches shadows of a box, by a sun and a point.
 FaultScene catcher_scene();
 
-/// The built-in scene as the game loads it: sun, guard lamp and lantern with their shadows, all that moves moving.
+/// Makes the built-in scene as the game loads it: sun, guard lamp and lantern with their shadows, all that moves
+/// moving.
 FaultScene courtyard_scene();
-/// The same with a sun whose cascades go by the depths of the picture before.
+/// Makes the same with a sun that splits its cascades by the depths of the picture before.
 FaultScene sampled_courtyard_scene();
 
 }  // namespace gnomon

@@ -8,8 +8,8 @@
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"
 
-// The filter that a light's targets choose, frame by frame: what the report says of it, that it stays while a
-// camera sways, that it goes back when it is no longer needed, and that budgets come first.
+// The filter that a light's targets choose, frame by frame. The report names it, and it stays while a camera sways. It
+// goes back to the usual one where that meets the targets again, and budgets come first.
 namespace gnomon {
 namespace {
 
@@ -29,7 +29,7 @@ protected:
     void ask(const LightShadow& shadow) {
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s = shadow; });
     }
-    /// A frame; counts how often the filter changed.
+    /// Runs a frame; counts how often the filter changed.
     ShadowFilter step_at(const glm::dvec3& camera_m) {
         world.move(stage.camera, camera_m);
         step();
@@ -117,7 +117,7 @@ TEST_P(ChosenFilter, StaysTheUsualOneWhereItsMapsKeepTheWord) {
 TEST_P(ChosenFilter, IsHeldWhileTheCameraSwaysAndComesBackOnce) {
     ask({.narrowest_caster_px = kLoose_px});
     step_at(kFar_m);
-    // To where the word is just broken, and to and fro across that place.
+    // The camera comes near until the target is just missed, then moves to and fro across that place.
     double times = 1.0;
     while (step_at(kFar_m * times) == kUsual && times > 0.01) times *= 0.97;
     ASSERT_EQ(last, kKeeping);

@@ -48,7 +48,8 @@ TEST_F(FrameCost, TimesAreOfThisFrameAlone) {
 /// More frames than anything counts: since when a map has not been used, since when something stands still.
 constexpr int kWarm = 100;
 
-/// Allocations of the last of so many frames, of all after the hundredth; `edit` changes the world before each.
+/// Counts the allocations of the last of `frames` frames, or of all after the hundredth. `edit` changes the world
+/// before each.
 template <class Edit>
 std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const FrameSettings& settings, Edit edit,
                                   const assets::MeshLibrary& library = test_library(), int frames = 8) {
@@ -63,7 +64,7 @@ std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const 
     for (const LightKind kind : kinds) world.add_light(kind, kLightPlace_m, name + std::to_string(n++));
     world.registry.emplace<Name>(parts.camera, {name + "camera"});
     world.registry.emplace<Name>(parts.box, {name + "box"});
-    // And one of an entity that cannot be used, which every report says.
+    // And the name of an entity that cannot be used, which is in every report.
     const ecs::Entity absurd = world.add_light(LightKind::point, kLightPlace_m, name + "absurd");
     world.registry.patch<Light>(absurd, [](Light& l) { l.intensity = -1.0f; });
     std::size_t allocations = 0;

@@ -49,8 +49,8 @@ protected:
         ADD_FAILURE() << "no light " << name;
         return kNone;
     }
-    /// The instance slots that a depth pass draws, or another one with its own items, in order, as the device's buffer
-    /// holds them.
+    /// Returns the instance slots that a pass draws, in order, from the device's buffer of draw items. `label`: that
+    /// buffer, if the pass is no depth pass.
     std::vector<std::uint32_t> drawn_slots(const Pass& pass, const char* label = "shadow draw items") const {
         std::vector<std::uint32_t> slots;
         gl::BufferHandle items{};

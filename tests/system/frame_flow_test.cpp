@@ -5,7 +5,7 @@
 #include "systems/frame_timers.h"
 #include "tests/system/frame_fixture.h"
 
-/// What a frame takes from others, and what it gives to whom.
+/// What a frame takes from others, and what it gives to them.
 namespace gnomon {
 namespace {
 
@@ -64,8 +64,8 @@ TEST_F(OtherReaders, MayBeASecondFrameOfTheSameWorld) {
     }
 }
 
-/// A device whose timers say how long each light's work took: as many microseconds as its entity's index and one more,
-/// for its maps and for its lighting.
+/// A device with timers of each light's work, for its maps and for its lighting. Each reports as many microseconds as
+/// the index of the light's entity, and one more.
 class LateTimers : public ::testing::Test {
 protected:
     class Device final : public gl::Device {

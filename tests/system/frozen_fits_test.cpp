@@ -1,6 +1,6 @@
 #include "tests/system/frame_fixture.h"
 
-/// FrameSettings::freeze_fits: the stages go on for the cameras that there were, the picture for those that there are.
+/// FrameSettings::freeze_fits: the stages go on for the cameras as they were, the picture for the cameras as they are.
 namespace gnomon {
 namespace {
 

@@ -11,7 +11,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr int kSettled = 70;  // frames after which nothing waits any more
+constexpr int kSettled = 70;  // frames after which everything is at rest
 
 class KeptVisibility : public FrameTest {
 protected:
@@ -40,7 +40,7 @@ protected:
         for (const LightReport& l : frame->report().lights) sum += l.kept.bytes;
         return sum;
     }
-    /// Of the light's pass over the picture, last program set.
+    /// Returns the label of the last program that the light's pass over the picture sets.
     std::string program_of(const std::string& name) const {
         std::string label = "no pass";
         for (const Pass& pass : passes())
@@ -82,7 +82,7 @@ TEST_F(KeptVisibility, LightsAreLookedUpOnceMoreInTheSecondStillFrameAndThenRead
     }
     EXPECT_EQ(light("sun").kept.bytes, 4u * settings.viewport_px.x * settings.viewport_px.y);
     EXPECT_THAT(textures(), SizeIs(3)) << "what filled them is gone";
-    // Neither maps nor what they are read by are bound any more.
+    // Maps are not bound.
     for (const gl::Command& command : frame->commands().commands) {
         const auto* bound = std::get_if<gl::BindTexture>(&command);
         if (!bound || !bound->texture) continue;
@@ -99,7 +99,7 @@ TEST_F(KeptVisibility, OnlyThePixelsThatALightReachesAreHeld) {
     EXPECT_GT(light("point").kept.bytes, 0u);
 }
 
-/// Of whatever its visibility follows from, and of no more.
+/// Changes everything that visibility follows from, and checks that the other lights keep theirs.
 TEST_F(KeptVisibility, EndsWithWhateverItFollowsFrom) {
     const std::vector<std::string> all{"sun", "spot", "point"};
     struct Change {
@@ -184,7 +184,7 @@ TEST_F(KeptVisibility, MapsOfCastersAsTheyWereAreLookedUp) {
 TEST_F(KeptVisibility, AFailedSubmissionIsNotTrusted) {
     settle();
     ASSERT_TRUE(reads("sun"));
-    device.fail_call(device.calls(), gl::Failure::out_of_memory);  // nothing is made any more: the submission
+    device.fail_call(device.calls(), gl::Failure::out_of_memory);  // the next call is the submission: nothing is made
     EXPECT_NE(step().failure, gl::Failure::none);
     step();
     EXPECT_FALSE(reads("sun"));
@@ -276,7 +276,7 @@ TEST_F(KeptVisibility, SaysWhatItSaves) {
     EXPECT_GE(*light("sun").kept.saved_us, 0.0);
 }
 
-/// Two cameras in one picture's worth of frames: each has its own.
+/// Uses two cameras in turn: each keeps its own.
 TEST_F(KeptVisibility, EachCameraKeepsItsOwn) {
     const auto camera = [](std::uint32_t i) { return ecs::Entity{i, 1}; };
     const ecs::Entity lamp{9, 1};

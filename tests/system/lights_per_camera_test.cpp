@@ -18,7 +18,7 @@ protected:
         device.check_leaks();
         for (const gl::Finding& f : device.findings()) ADD_FAILURE() << gl::to_text(f.misuse) << ": " << f.detail;
     }
-    /// What each camera's lighting was told, and the groups of its passes.
+    /// Runs a frame. Records the inputs of each camera's lighting, and the groups of its passes.
     void step() {
         inputs.clear();
         groups.clear();

@@ -3,7 +3,7 @@
 #include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
-/// Meshes that bend: once per pose, for all that draw them; and nothing of it for anybody else.
+/// Meshes that bend: once per pose, for all that draw them. Nothing of it is done for other meshes.
 namespace gnomon {
 namespace {
 
@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// Vertices above the middle follow the second joint, the others the first; one target lifts them all.
+/// Makes a deformer. Vertices above the middle follow the second joint, the others the first. One target lifts all.
 std::shared_ptr<const assets::Deformer> two_joints(const assets::Mesh& mesh) {
     assets::Deformer deformer;
     deformer.targets.resize(1);
@@ -54,7 +54,7 @@ protected:
         }
         return found;
     }
-    /// The values of the mesh in such an upload, which must be the only one.
+    /// Returns the values of the mesh in such an upload, which must be the only one.
     template <class T>
     std::vector<T> uploaded(const std::string& label) const {
         const auto found = uploads(label);

@@ -65,7 +65,7 @@ protected:
         return std::any_of(spawned.lights.begin(), spawned.lights.end(),
                            [&](const auto& l) { return l.name == group; });
     }
-    /// Depth passes that draw the mover, by their groups.
+    /// Returns the groups of the depth passes that draw the caster.
     Names views_with(ecs::Entity caster) const {
         std::uint32_t slot = ~0u;
         for (const InstanceItem& item : frame->snapshot().instances)
@@ -124,7 +124,7 @@ TEST_F(ManyLights, HaveViewsAndPassesAsFarAsTheyAreSeenAndNoMore) {
     EXPECT_EQ(drawn_views().size(), drawn);
     EXPECT_LE(drawn, views) << "a cascade without casters is cleared alone";
 
-    // Of each light there is a pass if any instance, by its bounds, is both seen and reached: asked of each one.
+    // A light has a pass if any instance, by its bounds, is both seen and reached. Without a tree each one is tested.
     const SceneSnapshot& scene = frame->snapshot();
     const ConsumerItem& camera = scene.consumers.at(0);
     SceneSnapshot without_tree = scene;

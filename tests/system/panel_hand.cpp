@@ -8,7 +8,8 @@ namespace {
 
 constexpr const char* kWindow = "Lights and shadows (F1)";
 constexpr double kFrame_s = 1.0 / 60.0;
-// Of ImGui's 13-pixel font: less than half of a row, and less than half of the narrowest thing, a checkbox of 19.
+// Steps of a search, with ImGui's 13-pixel font: less than half of a row, and less than the narrowest thing, a checkbox
+// of 19.
 constexpr double kRow_px = 8.0, kColumn_px = 16.0;
 
 unsigned id_of(const PanelHand::Label& label) {

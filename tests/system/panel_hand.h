@@ -17,11 +17,11 @@ public:
     PanelHand(game::GameWorld& world, FrameSystem& frame, game::Gui& gui, glm::uvec2 size_px)
         : world_(world), frame_(frame), gui_(gui), size_px_(size_px) {}
 
-    /// False: it is not in the panel, or lies where no mouse comes to.
+    /// Clicks on the thing with this label. False: it is not in the panel, or lies where no mouse comes to.
     bool click(const Label& label);
     /// Presses it where it begins and lets go at this share of its width, or beyond an end.
     bool drag(const Label& label, double to_share);
-    /// Of a list that is open: the entry of this name.
+    /// Chooses the entry of this name in a list that is open.
     bool choose(const std::string& entry);
 
 private:

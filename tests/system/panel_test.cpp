@@ -9,7 +9,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/panel_hand.h"
 
-/// The panel of lights (F1) under a mouse, in the built-in scene, on the recording device: what is clicked and dragged
+/// The panel of lights (F1) under a mouse, in the built-in scene, on the recording device. What is clicked and dragged
 /// reaches the lights, and the next frame's shadows.
 namespace gnomon {
 namespace {
@@ -73,7 +73,7 @@ protected:
 };
 
 TEST_F(Panel, DragsTheErrorOfAllLightsFromEndToEndAndMapsFollow) {
-    // A filter that is given has a finer map, where one that is not gives way to rays.
+    // A light with a set filter gets a finer map; with an automatic one it would get rays instead.
     for (const game::NamedEntity& light : world.scene.lights)
         if (world.registry.has<LightShadow>(light.entity))
             world.registry.patch<LightShadow>(light.entity, [](LightShadow& s) { s.filter = ShadowFilter::hard; });

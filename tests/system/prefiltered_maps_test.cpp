@@ -31,7 +31,7 @@ protected:
     void choose(ecs::Entity light, Change change) {
         edit_light(world.registry, light, change);
     }
-    /// Passes whose group says so.
+    /// Returns the passes that convert depths to moments, by their groups.
     std::vector<Pass> conversions() const {
         std::vector<Pass> found = passes();
         std::erase_if(found, [](const Pass& pass) { return pass.group.rfind("moments ", 0) != 0; });

@@ -164,7 +164,7 @@ TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
     EXPECT_EQ(made().size(), first + 2);
 }
 
-/// A light that asks by rays has three: each of them counts.
+/// Adds a light with rays, which has three programs: each of them counts.
 TEST_F(Programs, OfALightOfSeveralComeOneAfterTheOther) {
     world.add_stage();
     const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");

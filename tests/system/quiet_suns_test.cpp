@@ -3,7 +3,7 @@
 #include "systems/shadow/request/ray_limit.h"
 #include "tests/system/frame_fixture.h"
 
-// Suns of filter=exact whose casters stay while the camera walks: a map that is drawn once and asked for ever may be
+// Suns of filter=exact with casters that stay while the camera walks. A map that is drawn once and read for ever may be
 // larger.
 namespace gnomon {
 namespace {
@@ -24,7 +24,7 @@ protected:
         edit_light(world.registry, sun, [](LightShadow& s) { s.filter = ShadowFilter::exact; });
         edit_light(world.registry, sun, change);
     }
-    /// How many maps were drawn meanwhile.
+    /// Moves the camera for `frames` frames. Returns how many maps were drawn meanwhile.
     std::uint32_t walk(std::uint32_t frames) {
         std::uint32_t drawn = 0;
         for (std::uint32_t i = 0; i < frames; ++i) {

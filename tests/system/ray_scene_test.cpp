@@ -6,7 +6,7 @@
 #include "systems/visibility/ray_records.h"
 #include "tests/system/frame_fixture.h"
 
-/// What a light that asks by rays asks for, and that no other light pays for it.
+/// What a light with rays needs, and that no other light pays for it.
 namespace gnomon {
 namespace {
 
@@ -29,7 +29,7 @@ protected:
             for (const std::string& label : map_labels(device, other)) labels.push_back(label);
         return labels;
     }
-    /// Bytes that the last frame wrote into buffers whose label begins so.
+    /// Counts the bytes that the last frame wrote into buffers with a label that begins so.
     std::uint64_t uploaded(const std::string& label) const {
         std::uint64_t bytes = 0;
         for (const gl::Command& c : frame->commands().commands) {
@@ -61,7 +61,7 @@ TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
     world.registry.patch<LightShadow>(off, [](LightShadow& s) { s.enabled = false; });
     step();
     EXPECT_THAT(ray_labels(), IsEmpty());
-    constexpr std::uint32_t kMasks = 7;  // of `triangles`
+    constexpr std::uint32_t kMasks = 7;  // binding of the masks for `triangles`
     EXPECT_THAT(storage_bindings(), Each(kMasks));
     EXPECT_THAT(texels(), Each(::testing::AnyOf("caster triangles", "instances", "triangle normals")))
         << "of `triangles`, and of all surfaces";
@@ -216,7 +216,7 @@ TEST_F(RayScene, WithoutRoomALightWhoseContractAsksForRaysIsHeldToWhatMapsGive) 
     });
     step();
     EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
-    const int frames = static_cast<int>(Retry::kFrames) + 3;  // and once it was tried again
+    const int frames = static_cast<int>(Retry::kFrames) + 3;  // enough for another attempt
     for (int i = 0; i < frames; ++i) {
         step();
         EXPECT_EQ(light("lamp").filter.filter, ShadowFilter::triangles) << i;

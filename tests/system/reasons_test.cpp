@@ -62,9 +62,9 @@ protected:
     struct Scene {
         LightKind kind = LightKind::spot;
         std::function<void(LightShadow&)> setting = {};
-        std::function<void()> change = {};  // of the world, or the device, before the frame
+        std::function<void()> change = {};  // edits the world, or the device, before the first frame
         int frames = 1;
-        std::function<void()> before_each = {};  // of the frames
+        std::function<void()> before_each = {};  // called before each of the frames
         ShadowTuning tuning = {};
     };
     static Scene of_spot(std::function<void(LightShadow&)> setting) { return {LightKind::spot, std::move(setting)}; }
@@ -73,7 +73,7 @@ protected:
     }
     static Scene tuned(LightKind kind, const ShadowTuning& tuning) { return {.kind = kind, .tuning = tuning}; }
     Scene changed(std::function<void()> change) { return {LightKind::spot, {}, std::move(change)}; }
-    /// The first call of that kind and label of a frame without a fault fails.
+    /// Makes a scene with a call that fails: the first of that kind and label in a frame without a fault.
     Scene refused(Kind kind, const std::string& label, gl::Failure failure) {
         return changed([=, this] { device.fail_call(calls_before + first_call(kind, label), failure); });
     }

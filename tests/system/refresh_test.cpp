@@ -5,7 +5,7 @@
 #include "systems/shadow/culling/static_dynamic_casters.h"
 #include "tests/system/frame_fixture.h"
 
-/// LightShadow::refresh_error_px: maps that may show casters where they were, as far as nobody would see it.
+/// LightShadow::refresh_error_px: maps that may show casters where they were, as far as that is too little to be seen.
 namespace gnomon {
 namespace {
 
@@ -28,7 +28,8 @@ protected:
     void move_box(const glm::dvec3& way_m) {
         world.registry.patch<Transform>(stage.box, [&](Transform& t) { t.translation_m += way_m; });
     }
-    /// Frames, of so many in each of which the box moves by that, in which the light draws anything.
+    /// Runs `frames` frames and moves the box by `way_m` before each. Returns the frames in which the light draws
+    /// anything.
     std::vector<int> draws(const std::string& name, int frames, const glm::dvec3& way_m) {
         std::vector<int> drawn;
         for (int i = 0; i < frames; ++i) {
@@ -61,7 +62,7 @@ TEST_F(Refresh, IsDoneInTheFrameInWhichTheBoundWouldBeExceededAndInNoOther) {
         move_box(way_m);
         step();
         ASSERT_EQ(light(name).counts.views_drawn, 0u);
-        std::vector<double> one_px;  // of one step, view by view
+        std::vector<double> one_px;  // stale by one step, view by view
         for (const ViewReport& view : frame->report().views_of(light(name)))
             one_px.push_back(view.reason == Reason::refresh_held ? view.why.stale_px : 0.0);
         const double most_px = *std::max_element(one_px.begin(), one_px.end());

@@ -6,7 +6,7 @@
 
 #include "systems/lighting/picture_range.h"
 
-// What falls on a scene, and how its picture is held in 16 bits.
+// What falls on a scene, and how its picture is stored in 16 bits.
 namespace gnomon::lighting {
 namespace {
 

@@ -1,7 +1,7 @@
 #include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
-/// Who casts and receives under which light: exact lists, and what a change at run time draws anew.
+/// Casters and receivers of each light, by layers: exact lists, and what a change at run time draws again.
 namespace gnomon {
 namespace {
 

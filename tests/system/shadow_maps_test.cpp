@@ -15,7 +15,7 @@ protected:
         FrameTest::SetUp();
         stage = world.add_stage();
     }
-    /// The map of the light of that name, as the device holds it. Fails if there is not exactly one.
+    /// Returns the map of the light of that name, as the device holds it. Fails if there is not exactly one.
     gl::TextureDesc map_of(const std::string& name) const {
         const gl::TextureDesc* found = nullptr;
         for (std::uint32_t id = 1; id < 1000; ++id) {
@@ -27,7 +27,7 @@ protected:
         EXPECT_NE(found, nullptr) << "none of " << name;
         return found ? *found : gl::TextureDesc{};
     }
-    /// Nothing of any shadow is left on the device, and nothing is drawn for one.
+    /// Expects that nothing of any shadow is left on the device, and that nothing is drawn for one.
     void expect_no_shadow(Reason why) {
         EXPECT_THAT(map_labels(device), IsEmpty());
         EXPECT_THAT(depth_passes(), IsEmpty());

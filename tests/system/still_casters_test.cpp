@@ -2,7 +2,7 @@
 
 #include "tests/system/frame_fixture.h"
 
-/// Casters that stand still are kept apart from those that move: a moving one is drawn over a copy of the others.
+/// Casters that stand still have maps of their own: moving casters are drawn over a copy of these.
 namespace gnomon {
 namespace {
 
@@ -51,7 +51,7 @@ protected:
         }
         return found;
     }
-    /// Of maps and what belongs to them.
+    /// Counts the copies of maps and of what belongs to them.
     std::size_t copies() const {
         std::size_t n = 0;
         for (const gl::Command& c : frame->commands().commands) {

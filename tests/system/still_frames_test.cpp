@@ -72,7 +72,7 @@ TEST_F(StillFrames, FrozenCamerasCountAsTheCamerasThatTheyAre) {
     EXPECT_FALSE(step().still) << "the fits go where the picture is";
 }
 
-/// An engine of its own numbers its lights as it likes; some have no number at all.
+/// Gives lights numbers as an engine without this registry may: in any way, and to some none at all.
 TEST_F(StillFrames, TakeLightsOfAnyNumber) {
     step();
     SceneSnapshot scene = frame->snapshot();
@@ -95,7 +95,7 @@ TEST_F(StillFrames, TakeLightsOfAnyNumber) {
     EXPECT_FALSE(system.maps().find({0x7fffffffu, 2}));
 }
 
-/// The system alone, on a scene that can be taken away from it.
+/// Runs the system alone, on a scene that can be taken away from it.
 TEST_F(StillFrames, LookAtNoInstance) {
     step();
     SceneSnapshot scene = frame->snapshot();

@@ -92,7 +92,7 @@ ecs::Entity TestWorld::add_light(LightKind kind, const glm::dvec3& at_m, const s
     registry.emplace<Light>(e, light);
     registry.emplace<Name>(e, {name});
     LightShadow with_filter;
-    with_filter.filter = ShadowFilter::hardware_2x2;  // said, so that no test depends on the default
+    with_filter.filter = ShadowFilter::hardware_2x2;  // set, so that no test depends on the default
     if (shadow) registry.emplace<LightShadow>(e, with_filter);
     return e;
 }

@@ -12,8 +12,9 @@ namespace gnomon {
 /// Meshes of the test library.
 inline constexpr std::uint32_t kPlane = 0, kBox = 1, kMaskedBox = 2, kBlendedBox = 3, kMixedBox = 4, kSolidBox = 5;
 
-/// A flat square of 20 m at y = 0, facing up; boxes of 1 m around their origin: opaque, masked, blended, one whose
-/// first half is opaque and whose second is masked, and one that is known to be solid: its topology was analysed.
+/// Returns the meshes: a flat square of 20 m at y = 0, facing up, and boxes of 1 m around their origin. The boxes are
+/// opaque, masked, blended, mixed and solid. The first half of the mixed one is opaque and its second masked. The solid
+/// one is known to be so, because its topology was analysed.
 assets::MeshLibrary test_library();
 
 /// A registry with short ways to fill it.
@@ -23,10 +24,11 @@ struct TestWorld {
     ecs::Entity add_mesh(std::uint32_t mesh, const glm::dvec3& at_m, bool casts);
     /// Stands at `at_m`, looks at `target_m`.
     ecs::Entity add_camera(const glm::dvec3& at_m, const glm::dvec3& target_m);
-    /// Sun and spot shine from `at_m` at the origin. Range 30 m for local lights.
+    /// Adds a light. Sun and spot shine from `at_m` at the origin. Range 30 m for local lights.
     ecs::Entity add_light(LightKind kind, const glm::dvec3& at_m, const std::string& name, bool shadow = true);
     void move(ecs::Entity e, const glm::dvec3& to_m);
-    /// In still frames as well: for tests of how that is done (ShadowTuning::Reuse::keep_visibility).
+    /// Makes frames look lights up even when still, for tests of how that is done
+    /// (ShadowTuning::Reuse::keep_visibility).
     void look_lights_up();
 
     /// A plane that receives, a box at 1 m height that casts, a camera that sees both.

@@ -12,11 +12,11 @@
 
 namespace gnomon {
 
-/// A recording device whose timers tell how long a GPU of known speeds would take: the clock of tests. It also knows
-/// the most bytes that maps ever held, between any two calls.
+/// A recording device with timers that report how long a GPU of known speeds would take: the clock of tests. It also
+/// records the most bytes that maps had between any two calls.
 class TimedDevice final : public gl::Device {
 public:
-    /// Nanoseconds of the true GPU, which nobody else is told.
+    /// Nanoseconds of the true GPU, known to this device alone.
     struct Speeds {
         double pass = 5000.0, draw = 1000.0, triangle = 1.0, texel = 0.02, shaded_pixel = 0.5;
         double plain_pixel = 0.1, filtered_pixel = 0.75;  // looked up by one fetch, or by any other filter
@@ -24,8 +24,8 @@ public:
     };
     Speeds speeds;
     bool answers = true;                               // false: no timer ever comes
-    std::size_t late = 0;                              // so many submissions later, as drivers answer
-    std::uint64_t capacity_bytes = ~std::uint64_t{0};  // of maps; more is refused
+    std::size_t late = 0;                              // submissions after which timers come, as with drivers
+    std::uint64_t capacity_bytes = ~std::uint64_t{0};  // most bytes of maps; more is refused
 
     gl::RecordingDevice recording;
     std::uint64_t most_map_bytes = 0;
@@ -146,7 +146,7 @@ private:
 
     std::vector<Map> maps_;
     std::vector<gl::DrawMeshes> draws_;            // draws of one command
-    std::vector<gl::Timing> timings_;              // of the last submission
+    std::vector<gl::Timing> timings_;              // times of the last submission
     std::deque<std::vector<gl::Timing>> answers_;  // not yet taken
 };
 

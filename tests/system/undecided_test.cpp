@@ -2,7 +2,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
-/// A light whose filter takes long at edges is drawn twice: what the first draw decides, and the rest.
+/// A light with a filter that takes long at edges is drawn twice: what the first draw decides, and the rest.
 namespace gnomon {
 namespace {
 
@@ -25,14 +25,14 @@ protected:
     void choose(ShadowFilter filter) {
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = filter; });
     }
-    /// Into the sum of all light, of the lamp.
+    /// Returns the lamp's passes over the picture.
     std::vector<Pass> lamp_passes() const {
         std::vector<Pass> found = passes();
         std::erase_if(found, [](const Pass& p) { return p.group != "lamp"; });
         return found;
     }
     std::string target_of(const Pass& pass) const { return device.target(pass.begin.target)->label; }
-    /// Of the surfaces' depth.
+    /// Returns the areas in which the surfaces' depth is copied.
     std::vector<gl::Rect> copied_areas() const {
         std::vector<gl::Rect> areas;
         for (const gl::Command& c : frame->commands().commands) {

@@ -2,7 +2,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
-/// What the report says of each view, and the numbers behind it.
+/// What the report states of each view, and the numbers behind it.
 namespace gnomon {
 namespace {
 

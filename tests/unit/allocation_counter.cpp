@@ -12,8 +12,8 @@ namespace gnomon {
 std::size_t allocation_count() { return allocations; }
 }  // namespace gnomon
 
-// All forms but those for over-aligned types, each with its counterpart: sanitizers replace those that are not named here, and
-// refuse memory that one of theirs gave and one of these takes back.
+// All forms except those for over-aligned types, each with its counterpart. Sanitizers replace forms that are absent
+// here, and refuse memory that their form gave and a form of this file takes back.
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
     ++allocations;
     return std::malloc(size > 0 ? size : 1);

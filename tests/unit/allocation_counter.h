@@ -3,7 +3,7 @@
 
 namespace gnomon {
 
-/// How often this executable has called operator new. Link tests/unit/allocation_counter.cpp to count.
+/// Returns how often this executable has called operator new. Link tests/unit/allocation_counter.cpp to count.
 std::size_t allocation_count();
 
 }  // namespace gnomon

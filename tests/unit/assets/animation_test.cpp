@@ -86,7 +86,7 @@ TEST(Sampling, KeysOfOneTimeMakeAJumpAndNoDivisionByZero) {
     EXPECT_NEAR(at(channel, std::nextafter(2.0, 0.0))[0], 4.0, 1e-12);
 }
 
-/// A cubic whose tangents are those of a cubic polynomial is that polynomial.
+/// Checks that a cubic with the tangents of a cubic polynomial is that polynomial.
 TEST(Sampling, CubicKeysFollowAPolynomialOfTheThirdDegreeExactly) {
     const auto f = [](double t) { return 2.0 * t * t * t - 3.0 * t * t + 0.5 * t - 1.0; };
     const auto slope = [](double t) { return 6.0 * t * t - 6.0 * t + 0.5; };

@@ -16,9 +16,10 @@ struct BadInput {
     const char* file = "bad.gltf";
 };
 
-/// At least one for every rule that bytes alone can break; those about files on disk are in bad_uri_test.cpp.
+/// Returns at least one input for every rule that bytes alone can break. Rules about files on disk are in
+/// bad_uri_test.cpp.
 std::vector<BadInput> all_bad_inputs();
-std::vector<BadInput> skin_and_animation_inputs();  // of those, in bad_skin_input.cpp
+std::vector<BadInput> skin_and_animation_inputs();  // some of these, in bad_skin_input.cpp
 
 inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 

@@ -49,7 +49,7 @@ TEST(BadInputControl, TheUnspoiltTriangleLoads) {
     EXPECT_TRUE(zeros) << to_line(zeros.error());
 }
 
-/// Every "word.word" in the text: in the loader's sources these are its rules.
+/// Returns every "word.word" in the text: in the loader's sources these are its rules.
 std::set<std::string> rules_in(const std::filesystem::path& file) {
     std::ifstream stream(file);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -73,8 +73,8 @@ TEST(BadInputTable, HoldsEveryRuleOfTheLoaderAndNoOther) {
     std::set<std::string> rules;
     for (const auto& entry : std::filesystem::directory_iterator(root / "engine/assets"))
         if (entry.path().extension() == ".cpp") rules.merge(rules_in(entry.path()));
-    // What tinygltf or a library finds that the checks before it did not: no input is known that gets there, and the
-    // fuzzers look for one (GltfMutation).
+    // The rule for what tinygltf or a library finds and the checks before it did not. No known input gets there; a
+    // fuzzer looks for one (GltfMutation).
     EXPECT_EQ(rules.erase("gltf.parse"), 1U);
     std::set<std::string> tried = rules_in(root / "tests/unit/assets/bad_uri_test.cpp");
     tried.merge(rules_in(root / "tests/unit/assets/taken_input_test.cpp"));

@@ -47,7 +47,7 @@ TEST(BadResource, BuffersThatAreTooLargeTogetherAreRefused) {
 }
 
 TEST(BadResource, AFileThatEndsBeforeItsSizeIsRefused) {
-    const fs::path shorter = "/sys/kernel/mm/transparent_hugepage/enabled";  // says 4096 bytes, holds some twenty
+    const fs::path shorter = "/sys/kernel/mm/transparent_hugepage/enabled";  // size 4096 bytes, content some twenty
     if (!fs::exists(shorter)) GTEST_SKIP() << "no " << shorter;
     const auto result = assets::load_gltf(shorter);
     ASSERT_FALSE(result);
@@ -55,7 +55,7 @@ TEST(BadResource, AFileThatEndsBeforeItsSizeIsRefused) {
     EXPECT_EQ(result.error().file, shorter.string());
 }
 
-/// Exits with 0 if the loader, with hardly any memory left, says so.
+/// Exits with 0 if the loader reports that memory is exhausted, with hardly any left.
 [[noreturn]] void load_without_memory(const Bytes& file) {
     constexpr rlim_t kRoom = 64 * limits::kMiB;
     std::size_t pages = 0;

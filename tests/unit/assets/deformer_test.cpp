@@ -34,7 +34,7 @@ struct Bent {
     MeshPose pose() const { return {joints, weights}; }
 };
 
-/// Any affine matrix: turned, stretched, mirrored, flattened, far away.
+/// Draws any affine matrix: turned, stretched, mirrored, flattened, far away.
 glm::dmat4x3 any_matrix(Random& random) {
     const glm::dquat turn = glm::normalize(
         glm::dquat(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)));
@@ -79,7 +79,7 @@ Bent random_mesh(Random& random, bool skinned) {
     return bent;
 }
 
-/// Sum over joints of weight times the point where that joint alone takes it.
+/// Sums, over joints, weight times the point to which that joint alone takes the vertex.
 glm::dvec3 oracle(const Bent& bent, std::size_t v) {
     const Deformer& deformer = *bent.mesh.deformer;
     long double p[3], sum[3] = {0, 0, 0};
@@ -194,7 +194,7 @@ TEST_F(BentMeshes, AtRestAreThemselves) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Bent bent = random_mesh(random, true);
     std::fill(bent.joints.begin(), bent.joints.end(), glm::dmat4x3(1.0));
-    bent.weights.clear();  // those left out count as 0
+    bent.weights.clear();  // missing weights count as 0
     std::vector<Vertex> found;
     deform(bent.mesh, bent.pose(), found);
     for (std::size_t v = 0; v < found.size(); ++v)
@@ -215,7 +215,7 @@ TEST_F(BentMeshes, KnowWhetherJointsTurnThemInsideOut) {
     glm::dmat4x3 mirror(1.0), flat(1.0);
     mirror[0] *= -2.0;
     flat[1] *= 0.0;
-    bent.joints = {plain, plain, mirror};  // nobody follows the third
+    bent.joints = {plain, plain, mirror};  // no vertex follows the third
     EXPECT_EQ(mirroring(bent.mesh, bent.pose()), Mirroring::none);
     bent.joints = {mirror, plain};
     EXPECT_EQ(mirroring(bent.mesh, bent.pose()), Mirroring::some);

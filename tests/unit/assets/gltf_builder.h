@@ -48,24 +48,24 @@ struct GltfBuilder {
 
     /// Appends to a top-level array; returns the index.
     int push(const char* collection, const json& value);
-    /// A mesh of one primitive, with a node that shows it; returns the mesh's index.
+    /// Adds a mesh of one primitive, with a node that shows it; returns the mesh's index.
     int add_mesh(const json& primitive);
 
-    /// The file as JSON with a data URI, or as GLB.
+    /// Returns the file as JSON with a data URI, or as GLB.
     Bytes gltf() const;
     Bytes glb() const;
 
     static std::size_t components_of(std::string_view type);
 };
 
-/// One triangle (0 0 0), (1 0 0), (0 1 0) with 16-bit indices, in mesh 0 on node 0.
+/// Makes one triangle (0 0 0), (1 0 0), (0 1 0) with 16-bit indices, in mesh 0 on node 0.
 GltfBuilder triangle();
 
-/// The triangle on a skin of one joint, node 1, without bind matrices; accessors 2 and 3 are joints and weights.
+/// Makes the triangle on a skin of one joint, node 1, without bind matrices. Accessors 2 and 3 are joints and weights.
 GltfBuilder skinned_triangle();
 
 Bytes bytes_of(std::string_view text);
-/// GLB from chunks as they are; lengths are the chunks' own.
+/// Makes a GLB from chunks as they are; lengths are the chunks' own.
 Bytes glb_of(std::string_view json_text, std::span<const std::byte> binary);
 void put_u32(Bytes& bytes, std::size_t offset, std::uint32_t value);
 

@@ -24,7 +24,7 @@ SceneData loaded(const GltfBuilder& builder) {
 
 json& attributes(GltfBuilder& builder) { return builder.doc["meshes"][0]["primitives"][0]["attributes"]; }
 
-/// `builder` with an animation of one channel.
+/// Adds an animation of one channel to `builder`.
 void animate(GltfBuilder& builder, const char* path, int times, int values, const char* interpolation = "LINEAR",
              int node = 0) {
     const json target = {{"node", node}, {"path", path}};

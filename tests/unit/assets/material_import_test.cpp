@@ -31,7 +31,7 @@ const std::vector<std::uint8_t> kPng = {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A
                                         0xFF, 0x00, 0x00, 0xFF, 0x80, 0x0F, 0x7A, 0x03, 0x7E, 0x4A, 0x6E, 0x70, 0x0C,
                                         0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 
-/// The triangle with a masked material whose image lies in a buffer view.
+/// Makes the triangle with a masked material and its image in a buffer view.
 GltfBuilder masked_triangle(const std::vector<std::uint8_t>& image) {
     GltfBuilder builder = triangle();
     const int view = builder.add_view(image.data(), image.size());

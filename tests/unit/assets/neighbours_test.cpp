@@ -19,7 +19,8 @@ glm::vec3 corner(const Mesh& mesh, std::uint32_t triangle, std::uint32_t c) {
     return mesh.vertices[mesh.indices[3 * triangle + c % 3]].position_ms;
 }
 
-/// Beyond each edge lies a triangle with the same two places, the other way round, and back across it the first.
+/// Checks that each edge has a triangle beyond it, with the same two places in reverse order, that names the first
+/// triangle in turn.
 void expect_mutual(const Mesh& mesh) {
     const std::vector<std::uint32_t> across = triangle_neighbours(mesh);
     ASSERT_EQ(across.size(), mesh.indices.size());

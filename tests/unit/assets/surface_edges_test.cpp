@@ -24,7 +24,7 @@ SurfaceEdges edges_of(const Mesh& mesh, std::vector<bool> included = {}) {
     return assets::surface_edges(mesh.vertices, mesh.indices, included);
 }
 
-/// Both ends of an edge, the smaller first.
+/// Returns both ends of an edge, the smaller first.
 template <class Edge>
 std::array<std::uint32_t, 2> ends(const Edge& edge) {
     return {std::min(edge.a, edge.b), std::max(edge.a, edge.b)};

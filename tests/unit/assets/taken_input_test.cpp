@@ -1,5 +1,5 @@
-// What is outside the letter of glTF and has one sensible meaning: each crafted file must load, warn of its rule at its
-// place, and hold what was taken. Rules that refuse are in bad_input.cpp.
+// Input outside the letter of glTF that has one sensible meaning. Each crafted file must load, warn of its rule at its
+// place, and contain what was taken. Rules that refuse are in bad_input.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -33,7 +33,7 @@ Topology topology_of(const Mesh& mesh) {
 
 Mesh cube() { return mesh_of(kCorners, kCubeFaces); }
 
-/// Every face gets its own three vertices, as files with hard edges have them.
+/// Gives every face its own three vertices, as files with hard edges have them.
 Mesh split(const Mesh& mesh) {
     Mesh apart;
     for (const std::uint32_t index : mesh.indices) {
@@ -228,7 +228,7 @@ TEST(Topology, AnswersForNothing) {
     }
 }
 
-/// An independent count: every pair of faces is compared by its directed edges.
+/// Counts open and non-manifold edges independently: by how many faces use an edge in each direction.
 Topology brute_force(const Mesh& mesh) {
     Topology topology;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> uses;

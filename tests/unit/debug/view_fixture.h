@@ -36,7 +36,7 @@ struct ViewTest : ::testing::Test {
         shadow::IndexRange& views = frame.fitted.lights[light].views;
         if (views.count++ == 0) views.first = static_cast<std::uint32_t>(frame.fitted.views.size() - 1);
     }
-    /// `items` are instances of the scene.
+    /// Appends indices of the scene's instances to `all`; returns their range.
     shadow::IndexRange add(std::vector<std::uint32_t>& all, std::initializer_list<std::uint32_t> items) {
         const auto first = static_cast<std::uint32_t>(all.size());
         all.insert(all.end(), items);

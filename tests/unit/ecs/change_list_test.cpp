@@ -150,7 +150,7 @@ protected:
             registry_.patch<Position>(e, [](Position& p) { p.x += 1.0; });
         }
     }
-    /// Of so many components, none of which comes or goes.
+    /// Number of components, all there from the start to the end.
     static constexpr std::size_t kComponents = 1000;
     std::vector<Entity> entities_;
     int next_ = 0;

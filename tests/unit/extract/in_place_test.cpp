@@ -33,7 +33,7 @@ protected:
         std::function<void()> run;
         bool shapes_lamp = false;  // the lamp's shadows follow from it
     };
-    /// One of each component that says nothing of instances.
+    /// Returns edits of each component that does not concern instances.
     std::vector<Edit> edits() {
         ecs::Registry& r = world.registry;
         return {

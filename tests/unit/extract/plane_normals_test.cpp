@@ -22,7 +22,7 @@ glm::vec4 normal_of(const Corners& corners) {
     return normals.at(0);
 }
 
-/// As plane_normal() in shaders/lighting/gbuffer/surface_position_f64.glsl.
+/// Adds the residual as plane_normal() in shaders/lighting/gbuffer/surface_position_f64.glsl does.
 glm::dvec3 with_residual(const glm::vec4& normal) {
     const auto bits = std::bit_cast<std::uint32_t>(normal.w);
     glm::dvec3 whole(normal);

@@ -34,7 +34,7 @@ protected:
     void pipeline(CommandList& list) const { list.add(SetPipeline{{.program = program}}); }
     void meshes(CommandList& list) const { list.add(BindMeshes{vertices, indices, items}); }
 
-    /// What the device finds wrong with the list, and nothing found before.
+    /// Returns what the device finds wrong with the list, without earlier findings.
     std::vector<Misuse> misuses_of(const CommandList& list) {
         device.forget();
         device.submit(list);

@@ -9,7 +9,7 @@ using ::testing::IsEmpty;
 
 class RecordingMisuse : public RecordingTest {
 protected:
-    /// A pass that is right, with `extra` before its draw.
+    /// Returns the misuses in a correct pass with `extra` before its draw.
     std::vector<Misuse> in_draw(const std::vector<Command>& extra, Command draw = DrawTriangle{}) {
         CommandList list;
         begin(list);

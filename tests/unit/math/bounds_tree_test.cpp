@@ -45,7 +45,7 @@ void build(BoundsTree& tree, const std::vector<Aabb>& boxes) {
     tree.build(static_cast<std::uint32_t>(boxes.size()), [&](std::uint32_t i) { return boxes[i]; });
 }
 
-/// Overlap with a box, as the tree asks for it.
+/// Returns the function, of the kind that BoundsTree::visit() takes, that classifies a box's overlap with `volume`.
 auto touching(const Aabb& volume) {
     return [volume](const Aabb& box) {
         if (!overlaps(volume, box)) return Overlap::outside;
@@ -112,7 +112,7 @@ TEST(BoundsTree, AMoveThatIsNotRefittedIsAMistakeTheseTestsNotice) {
     EXPECT_EQ(found(tree, boxes[7]), wanted(boxes, boxes[7]));
 }
 
-/// How many boxes a search looks at.
+/// Counts the boxes that a search looks at.
 std::size_t cost(const BoundsTree& tree, const Aabb& volume) {
     std::size_t looks = 0;
     const auto classify = touching(volume);
@@ -185,7 +185,7 @@ public:
     SplicedBoxes(std::size_t count, std::uint64_t seed) : random_(seed), numbers_(seed), boxes_(random_.boxes(count)) {
         build(tree, boxes_);
     }
-    /// Takes out and puts in so many, at random places of the order.
+    /// Takes out `removals` boxes and puts in `additions`, at random places of the order.
     void splice(std::size_t removals, std::size_t additions) {
         const std::vector<std::uint32_t> removed = numbers(removals, boxes_.size());
         for (std::size_t k = removed.size(); k-- > 0;)
@@ -222,7 +222,7 @@ public:
     std::vector<Aabb>& boxes() { return boxes_; }
 
 private:
-    /// Distinct rising numbers below `bound`, at most `count`.
+    /// Draws distinct rising numbers below `bound`, at most `count`.
     std::vector<std::uint32_t> numbers(std::size_t count, std::size_t bound) {
         std::vector<std::uint32_t> all(bound), some;
         std::iota(all.begin(), all.end(), 0u);

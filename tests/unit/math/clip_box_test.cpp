@@ -21,7 +21,7 @@ std::vector<glm::dvec3> clip(const Frustum& f, const Aabb& box) {
     return out;
 }
 
-/// Vertices without repetition, two closer than `tolerance` being one.
+/// Returns the points without repetition: two closer than `tolerance` count as one.
 std::vector<glm::dvec3> distinct(const std::vector<glm::dvec3>& points, double tolerance) {
     std::vector<glm::dvec3> out;
     for (const glm::dvec3& p : points) {

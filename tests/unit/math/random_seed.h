@@ -12,7 +12,7 @@ namespace gnomon {
 /// The seed of every run that names none, so that each gives the same result. A date.
 constexpr std::uint64_t kKnownSeed = 20261122;
 
-/// GNOMON_TEST_SEED: a number, or `random` for one that is drawn; kKnownSeed if it is not set.
+/// Returns the number in GNOMON_TEST_SEED, a drawn one if it is `random`, or kKnownSeed if it is not set.
 inline std::uint64_t test_seed() {
     const char* given = std::getenv("GNOMON_TEST_SEED");
     if (given == nullptr) return kKnownSeed;

@@ -27,7 +27,7 @@ public:
         while (!(glm::length(d) > 0.05));
         return glm::normalize(d);
     }
-    /// Small ones, long ones, flat ones, and such as are a point.
+    /// Draws triangles: small, long, flat, and some that are a point.
     std::vector<Triangle> triangles(std::size_t count) {
         std::vector<Triangle> all;
         for (std::size_t i = 0; i < count; ++i) {
@@ -77,7 +77,7 @@ Ramp scaled(Ramp ramp, double by) {
     return ramp;
 }
 
-/// The lowest of many points on the triangles that the frustum holds.
+/// Returns the least value of `ramp` at many points of the triangles within the frustum; infinity if none lies there.
 double lowest_sample(const std::vector<Triangle>& triangles, const Frustum& frustum, const Ramp& ramp, Random& random) {
     double lowest = kInfinity;
     for (const Triangle& t : triangles)

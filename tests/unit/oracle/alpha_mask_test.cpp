@@ -5,7 +5,7 @@
 namespace gnomon::oracle {
 namespace {
 
-/// Two texels side by side: alpha 0 and 255.
+/// Makes two texels side by side, with alpha 0 and 255.
 assets::Texture two_texels() {
     assets::Texture texture;
     texture.width = 2;

@@ -30,12 +30,12 @@ struct AnalyticScene {
         library.meshes.push_back(std::move(mesh));
         return static_cast<std::uint32_t>(library.meshes.size()) - 1u;
     }
-    /// 1 m square in x and y around the origin, facing +z; u to the right, v down.
+    /// Adds a 1 m square in x and y around the origin, facing +z; u to the right, v down.
     std::uint32_t add_square(std::uint32_t material = 0) {
         return add_mesh({{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}}, {0, 1, 2, 0, 2, 3},
                         material);
     }
-    /// 1 m cube around the origin, facing outward.
+    /// Adds a 1 m cube around the origin, facing outward.
     std::uint32_t add_cube(std::uint32_t material = 0) {
         std::vector<glm::vec3> points;
         for (int i = 0; i < 8; ++i)
@@ -54,7 +54,7 @@ struct AnalyticScene {
         snapshot.instances.push_back(item);
         return snapshot.instances.back();
     }
-    /// A square floor of `size` metres at y = 0, facing up.
+    /// Places a square floor of `size` metres at y = 0, facing up.
     InstanceItem& place_floor(double size) {
         return place(add_square(), glm::dvec3(0.0), glm::dmat3({size, 0, 0}, {0, 0, -size}, {0, size, 0}));
     }

@@ -17,13 +17,13 @@ const glm::dvec3 kOverhead(0.0, 1.0, 0.0), kSlanting(2.0, 1.0, 0.0);
 struct Floor : AnalyticScene {
     explicit Floor(const glm::dvec3& toward_sun) : light(sun(toward_sun)) { place_floor(100.0); }
 
-    /// Level, from x0 to x1, 8 m deep.
+    /// Adds a level plate from x0 to x1, 8 m deep.
     void plate(double x0, double x1, double y) {
         place(add_cube(), {0.5 * (x0 + x1), y, 0.0}, glm::dmat3({x1 - x0, 0, 0}, {0, 1e-3, 0}, {0, 0, 8}));
         snapshot.instances.back().visible = false;
     }
 
-    /// The picture `shift_px` to the right of the truth, or all lit; judged with texels of that size.
+    /// Judges the truth shifted `shift_px` to the right, or an all-lit picture, by texels of that size.
     EdgeExceptions judge(int shift_px, double texel_m, double error_px, bool all_lit = false) {
         const ConsumerItem camera = view_from_above(kSize_px, kWidth_m);
         const ReferenceTracer tracer = this->tracer();
@@ -47,7 +47,7 @@ struct Floor : AnalyticScene {
     }
 
     LightItem light;
-    double reach_texel = 0.5, depth_m = 0.0;  // of what judges
+    double reach_texel = 0.5, depth_m = 0.0;  // for the texels that judge() assumes
     std::size_t places = 0;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kSide = 40;
 
-/// All lit and on one plane, but for what a test changes.
+/// A picture all lit and on one plane, except for what a test changes.
 struct Picture {
     std::vector<float> measured = std::vector<float>(kSide * kSide, 1.0f), truth = measured;
     std::vector<std::uint8_t> scored = std::vector<std::uint8_t>(kSide * kSide, 1);

@@ -37,7 +37,7 @@ struct LampOnFloor {
             for (double x = -2.95; x < 3.0; x += 0.1) all.push_back({x, y, -kWall_m});
         return all;
     }
-    /// Whether light reaches p, of the wall. A lamp in the floor's plane stands on its front.
+    /// Returns whether light reaches p on the wall. A lamp in the floor's plane stands on its front.
     bool lights(const glm::dvec3& p) const {
         const bool lamp_above = lamp_m.y > 0.0 || (!(lamp_m.y < 0.0) && floor_faces_up);
         return !(lamp_above != (p.y > 0.0) && crosses_floor(p)) && !meets_box(p);
@@ -60,7 +60,7 @@ private:
     }
 };
 
-/// Above and below, from what only double tells from 0 to what everyone sees.
+/// Heights above and below the floor: some differ from 0 only in double, some plainly.
 inline constexpr double kLampHeights_m[] = {0.0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3};
 
 }  // namespace gnomon::oracle

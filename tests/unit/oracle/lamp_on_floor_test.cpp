@@ -13,7 +13,7 @@ struct Seen {
     std::size_t wrong = 0, lit = 0, dark = 0, left_out = 0;
 };
 
-/// The tracer's answers for the wall, against those written by hand.
+/// Counts where the tracer's results for the wall differ from those written by hand.
 Seen seen(const LampOnFloor& world, const glm::dvec3& offset_m = glm::dvec3(0.0)) {
     AnalyticScene scene;
     scene.offset_m = offset_m;
@@ -62,7 +62,7 @@ TEST(LampOnFloor, BesideAFloorInItsPlaneItIsDarkenedByNothingOfIt) {
     }
 }
 
-/// What tells the sides apart is the floor.
+/// Checks that the floor is what separates the two sides.
 TEST(LampOnFloor, WithoutTheFloorLightsBothSides) {
     AnalyticScene scene;
     const LampOnFloor world;

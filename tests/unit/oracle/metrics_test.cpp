@@ -36,7 +36,7 @@ Metrics compare(const Drawing& truth, const Drawing& measured, std::vector<std::
     return compare(ComparedPictures{truth.size, measured.values, truth.values, truth.scored, ambiguous});
 }
 
-/// `width` × `height`, shadow left of column `edge`.
+/// Draws `width` × `height` pixels with shadow left of column `edge`.
 Drawing half_plane(int width, int height, int edge) {
     return draw(std::vector<std::string>(
         static_cast<std::size_t>(height),

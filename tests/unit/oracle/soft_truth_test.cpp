@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-/// Share of a unit disk on one side of a line that passes at x from its middle.
+/// Computes the share of a unit disk on one side of a line that passes at x from its middle.
 double disk_beside(double x) {
     const double c = std::clamp(x, -1.0, 1.0);
     return 0.5 + (c * std::sqrt(1.0 - c * c) + std::asin(c)) / kPi;
 }
 
-/// A floor, and at that height a sheet over all of it where x is below 0, as wide as the floor is large. Unseen from above.
+/// Makes a floor and a sheet at that height over all of it where x is below 0. The camera does not see the sheet.
 AnalyticScene half_covered(double height_m) {
     AnalyticScene scene;
     scene.place_floor(40.0);
@@ -73,7 +73,7 @@ TEST(SoftTruth, UnderALampWidensWithTheWayFromTheCaster) {
     double worst = 0.0;
     for (std::size_t i = 0; i < traced.hits.count(); ++i) {
         const glm::dvec3 p = traced.hits.position_rel_m[i];
-        if (std::abs(p.z) > 0.5 || std::abs(p.x) > 1.0) continue;  // where the disk lies level but for less than the noise
+        if (std::abs(p.z) > 0.5 || std::abs(p.x) > 1.0) continue;  // beyond, the disk tilts by more than the noise
         const double at_source_m = p.x - p.x * 12.0 / 3.0;          // where the ray over the edge gets there
         worst = std::max(worst, std::abs(static_cast<double>(traced.truth.visibility[i]) - disk_beside(-at_source_m)));
     }

@@ -14,10 +14,10 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr std::uint32_t kSize = 64;
-constexpr double kWidth = 8.0;  // of the view from above: 8 px per metre
+constexpr double kWidth = 8.0;  // width of the view from above: 8 px per metre
 constexpr double kQuarterTurn = 0.5 * glm::pi<double>();
 
-/// Centre of pixel (x, y) of view_from_above on the floor.
+/// Returns the centre of pixel (x, y) of view_from_above() on the floor.
 glm::dvec2 floor_point(std::uint32_t x, std::uint32_t y) {
     return {((x + 0.5) / kSize - 0.5) * kWidth, -((y + 0.5) / kSize - 0.5) * kWidth};
 }
@@ -31,7 +31,7 @@ int mismatches(const std::vector<float>& visibility, const Expected& expected) {
     return wrong;
 }
 
-/// A floor and a 1 m cube that floats, its centre 2.3 m above.
+/// Makes a floor and a 1 m cube that floats, its centre about 2.3 m above the floor's.
 AnalyticScene floor_and_cube(const glm::dvec3& offset_m = glm::dvec3(0.0)) {
     AnalyticScene scene;
     scene.offset_m = offset_m;
@@ -40,7 +40,7 @@ AnalyticScene floor_and_cube(const glm::dvec3& offset_m = glm::dvec3(0.0)) {
     return scene;
 }
 
-/// Shadow of that cube under the sun (0.5, 1, 0.25): a slab swept from y 1.8 to 2.8.
+/// Computes the shadow of that cube under the sun (0.5, 1, 0.25): a slab swept from y 1.8 to 2.8.
 float cube_shadow(const glm::dvec2& p) {
     // The point p + s*(0.5, 1, 0.25) is inside for some s in [1.8, 2.8].
     double from = 1.8, to = 2.8;
@@ -81,7 +81,7 @@ TEST(ReferenceTracer, TakingTheCasterAwayLightsEverything) {
 
 TEST(ReferenceTracer, AMillionMetresAwayTheAnswerIsTheSame) {
     const glm::dvec3 offset(1.0e6, -2.0e6,
-                            3.0e6);  // exact in double with the numbers of the scene but for the last bits
+                            3.0e6);  // exact in double with the scene's numbers, except for the last bits
     const AnalyticScene near = floor_and_cube(), far = floor_and_cube(offset);
     std::vector<float> visibility[2];
     const AnalyticScene* scenes[] = {&near, &far};
@@ -122,8 +122,8 @@ TEST(ReferenceTracer, ASpotLightsADiskAndNothingElse) {
 TEST(ReferenceTracer, ALampInABoxShinesThroughItsHole) {
     AnalyticScene scene;
     scene.place_floor(20.0);
-    // A plate 2 m above the floor with a square hole of 0.5 m, lamp 1 m above it: the hole is three times as large
-    // below.
+    // A plate 2 m above the floor has a square hole of 0.5 m; the lamp is 1 m above the hole. Below, the hole is three
+    // times as large.
     const std::uint32_t square = scene.add_square();
     const glm::dmat3 flat({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
     const auto slab = [&](double x0, double x1, double z0, double z1) {
@@ -341,7 +341,7 @@ TEST(ReferenceTracer, UnusableInstancesDoNotExist) {
     EXPECT_EQ(scene.tracer().triangle_count(), before);
 }
 
-/// Without a tree: every triangle against every ray in double. The tree must lose none and add none.
+/// Compares with tests of every triangle against every ray, in double, without a tree. The tree must lose and add none.
 TEST(ReferenceTracer, TheTreeAgreesWithAsManyTestsAsThereAreTriangles) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> any(-1.0, 1.0);

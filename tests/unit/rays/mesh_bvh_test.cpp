@@ -20,7 +20,7 @@ bool holds(const BvhNode& node, const glm::vec3& point) {
     return true;
 }
 
-/// The promises of BvhNode: every slot in one leaf, all that is below a node in its box, and the order of the walk.
+/// Checks the promises of BvhNode: every slot in one leaf, all below a node in its box, and the order of the walk.
 void expect_sound(const MeshBvh& tree, std::size_t triangles) {
     const auto nodes = tree.nodes();
     std::vector<int> met(tree.triangles().size(), 0);

@@ -51,8 +51,8 @@ struct Case {
     RayPacket rays;
 };
 
-/// A soup of any kind and size, turned, stretched, often mirrored, now and then far away; rays that start together and
-/// go the same way, as a picture's do, with a far end or without.
+/// Draws a soup of any kind and size, turned, stretched, often mirrored, now and then far away. Its rays start together
+/// and go the same way, as a picture's do, with a far end or without.
 Case random_case(std::mt19937_64& random, std::uint64_t number) {
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     const auto point = [&](double size) { return size * glm::dvec3(share(random), share(random), share(random)); };
@@ -74,7 +74,8 @@ Case random_case(std::mt19937_64& random, std::uint64_t number) {
     return scene;
 }
 
-/// What the walk finds, `asked` times asking.
+/// Returns the nearest hits that the walk finds, and adds the number of its exact tests to `asked`. `told`: hits
+/// shorten the rays.
 PerLane<double> walked(const Case& scene, bool told, std::size_t& asked) {
     const MeshBvh tree(scene.mesh, scene.mesh.vertices, std::vector<assets::Material>(1));
     SegmentPacket segments;

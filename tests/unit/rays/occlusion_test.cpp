@@ -22,7 +22,7 @@ struct Case {
     RayPacket rays;
 };
 
-/// Double's answer, for one ray and one triangle.
+/// Returns whether one ray meets one triangle, in double.
 bool exactly_meets(const Case& scene, std::size_t lane, const BvhTriangle& triangle) {
     const auto placed = [&](const glm::vec3& p) {
         return scene.frame.basis * glm::dvec3(p) + (scene.frame.origin_ws_m - scene.rays.from[lane]);
@@ -43,8 +43,8 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// A soup of any size, turned, stretched, mirrored and put far away; rays in and around it, along its axes, to its
-/// corners and through its edges; short, long, without an end.
+/// Draws a soup of any size, turned, stretched, mirrored and put far away. Its rays lie in and around it, along its
+/// axes, to its corners and through its edges. They are short, long or without an end.
 Case random_case(std::uint64_t seed) {
     Random random(seed);
     const double size_m = std::pow(10.0, random.in(-4.0, 4.0));
@@ -92,7 +92,7 @@ struct Tally {
     int hits = 0, unsure = 0, wrong = 0, lost = 0;
 };
 
-/// What float says of every ray and triangle; `rounding` scales what it allows for.
+/// Compares float's verdict with double's for every ray and triangle; `rounding` scales what float allows for rounding.
 void compare(const Case& scene, float rounding, Tally& tally) {
     const MeshBvh tree(scene.mesh, scene.mesh.vertices, std::vector<assets::Material>(1));
     SegmentPacket segments;

@@ -12,8 +12,13 @@ namespace gnomon::test {
 
 enum class Soup { loose, closed_sheet, needles, degenerate, flat, tiny_in_large, count };
 
-/// Triangles of one material: loose ones; a crumpled sheet whose triangles share all edges; needles a thousand times as
-/// long as wide; points, lines and equal triangles; all in one plane; one large one among many tiny ones.
+/// Makes a mesh of one material by kind:
+/// - loose: triangles anywhere
+/// - closed_sheet: crumpled, its triangles share all inner edges
+/// - needles: a thousand times as long as wide
+/// - degenerate: some without an area, some repeated
+/// - flat: all in one plane
+/// - tiny_in_large: one large triangle among many tiny ones
 inline assets::Mesh soup(Soup kind, std::size_t triangles, double size_m, std::mt19937_64& random) {
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     const auto point = [&] { return glm::dvec3(share(random), share(random), share(random)) * size_m; };

@@ -74,7 +74,7 @@ inline void place(SceneSnapshot& s, double scale, const glm::dvec3& offset) {
     }
 }
 
-/// Whether the light's rays can reach the point, were nothing in the way.
+/// Returns whether the light's rays can reach the point, were nothing in the way.
 inline bool reaches(const LightItem& light, const glm::dvec3& p) {
     if (light.kind == LightKind::directional) return true;
     const glm::dvec3 to = p - light.position_ws_m;
@@ -103,7 +103,7 @@ inline Crossing crossing(const math::Aabb& box, const glm::dvec3& a, const glm::
     return c;
 }
 
-/// Where the light's rays to `p` come from: the light, or far along the sun's direction.
+/// Returns where the light's rays to `p` come from: the light, or far along the sun's direction.
 inline glm::dvec3 source_of(const LightItem& light, const glm::dvec3& p) {
     constexpr double kFar_m = 1e4;
     return light.kind == LightKind::directional ? p + kFar_m * light.rotation_ws[2] : light.position_ws_m;

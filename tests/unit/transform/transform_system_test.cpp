@@ -195,7 +195,7 @@ TEST(TransformSystem, OneMeterAtAHundredThousandKilometresStaysAMeter) {
     EXPECT_EQ(w.position(child) - w.position(parent), glm::dvec3(1.0, 0.25, -0.5));
 }
 
-/// The plain definition: recursion over parents, every time from scratch. Empty where the entity has no place.
+/// Computes a place by its plain definition: recursion over parents, from scratch. Empty where the entity has no place.
 std::optional<WorldTransform> by_recursion(const ecs::Registry& registry, ecs::Entity e, int depth = 0) {
     const Transform* t = registry.get<Transform>(e);
     if (!t || depth > 64 || !std::isfinite(t->translation_m.x)) return std::nullopt;

@@ -46,9 +46,9 @@ PictureTruth traced(const test::LoadedScene& scene) {
     return truth;
 }
 
-/// Pixels that differ. Where two surfaces lie in one plane either may be seen, and at a pixel whose centre lies on an
-/// edge, to the last bits, what is before it or behind: places are compared, to what the truth itself cannot tell
-/// apart. Lights are compared where those are the same, and visibility where the reference is sure.
+/// Counts of pixels that differ. Where two surfaces lie in one plane, either may be seen. At a pixel centre that lies
+/// on an edge, to the last bits, so may what is before it or behind. So places are compared, to what the truth itself
+/// resolves. Lights are compared where places are the same, and visibility where the reference is sure.
 struct Differing {
     std::size_t surfaces = 0, visibility = 0, scored = 0, ambiguous = 0;
     std::size_t lit = 0, dark = 0;  // by the reference
@@ -249,8 +249,8 @@ TEST(TruthOfAPicture, OnceCancelledDoesNothingMore) {
     EXPECT_EQ(state.done, 0u);
 }
 
-/// This process's time that it takes to trace, whole or given up when the first rows are done: others may have the
-/// processor.
+/// Measures the CPU time of a trace in this process, seconds: whole, or given up when the first rows are done. Others
+/// may have the processor, so the clock on the wall would mislead.
 double time_of_trace_s(const test::LoadedScene& scene, bool whole) {
     const std::clock_t start = std::clock();
     {

@@ -48,7 +48,7 @@ struct Scene {
     }
 };
 
-/// A corner as shaders place it: rounded basis, translation in two floats, seen from the anchor.
+/// Places a corner as shaders do: rounded basis, translation in two floats, seen from the anchor.
 glm::vec3 placed(const InstanceItem& item, const glm::vec3& corner, const RayTop& top) {
     const math::TwoFloat3 at = math::split(item.translation_ws_m);
     const glm::mat3 basis(item.basis);
@@ -60,7 +60,7 @@ bool holds(const rays::BvhNode& node, const glm::vec3& p) {
     return glm::all(glm::lessThanEqual(node.min, p)) && glm::all(glm::lessThanEqual(p, node.max));
 }
 
-/// Every caster in one leaf, and its corners in all boxes above.
+/// Checks that every caster is in one leaf, and its corners in all boxes above.
 void expect_sound(const InstanceTree& tree, const Scene& scene) {
     std::size_t met = 0;
     const auto nodes = tree.nodes();
@@ -156,7 +156,7 @@ struct OpenScene : Scene {
     }
 };
 
-/// Of each caster all leaves of its mesh, once, in parts whose boxes hold them, and so do all boxes above.
+/// Checks that each caster has all leaves of its mesh, once. The boxes of its parts, and all boxes above, contain them.
 void expect_whole(const InstanceTree& tree, const OpenScene& scene) {
     std::vector<std::vector<int>> seen(scene.snapshot.instances.size(), std::vector<int>(scene.tree.nodes.size()));
     const auto nodes = tree.nodes();
@@ -190,7 +190,7 @@ TEST(InstanceTree, TakesLargeInstancesApartAndLosesNothingOfThem) {
         const std::size_t casters = tree.instances();
         EXPECT_EQ(casters, 8u);  // one of nine casts nothing
         EXPECT_LE(tree.parts().size(), casters + InstanceTree::kMostOpened);
-        // Down to the leaves where there is room for that; all but the one that bends.
+        // Opened down to the leaves where there is room for that, except for the caster that bends.
         std::size_t leaves = 0;
         for (const rays::BvhNode& node : scene.tree.nodes) leaves += node.leaf != 0 ? 1 : 0;
         EXPECT_EQ(tree.parts().size(), std::min(casters + InstanceTree::kMostOpened, (casters - 1) * leaves + 1));
@@ -212,7 +212,7 @@ TEST(InstanceTree, TakesLargeInstancesApartAndLosesNothingOfThem) {
 
 TEST(InstanceTree, TakesThoseApartWhosePartsAreLarge) {
     OpenScene scene(3, 40000, print_seed());
-    // All of the size of the first, but for one a thousand times smaller: what is opened is opened of the others.
+    // The second is a thousand times smaller than the others, and the third bends: only the first is opened.
     for (InstanceItem& item : scene.snapshot.instances) item.basis = glm::dmat3(1.0);
     scene.snapshot.instances[1].basis = glm::dmat3(1e-3);
     for (InstanceItem& item : scene.snapshot.instances)

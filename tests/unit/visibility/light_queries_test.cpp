@@ -17,7 +17,7 @@ namespace {
 
 using test::QueryScene;
 
-/// A cube of 1 m whose middle is 1 m above the origin.
+/// Makes a cube of 1 m with its middle 1 m above the origin.
 QueryScene cube_scene() {
     QueryScene scene;
     scene.place(scene.add_cube(), {0.0, 1.0, 0.0});
@@ -173,7 +173,7 @@ TEST(LightQueries, OfAnEmptySceneAllIsLit) {
     EXPECT_EQ(scene.ask(scene.lamp({0.0, 5.0, 0.0}), kBelow), 1.0f);
 }
 
-/// Instances of soups, masked and not, any way turned, stretched and mirrored, some within each other.
+/// Makes instances of soups, masked and not, turned, stretched and mirrored in any way, some within each other.
 QueryScene random_scene(std::uint64_t seed, double offset_m) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> share(-1.0, 1.0);

@@ -11,7 +11,7 @@ namespace gnomon::test {
 
 /// A world put together by hand, with bounds and a tree over them.
 struct QueryScene : oracle::AnalyticScene {
-    /// To be called when all stands.
+    /// Computes the bounds and the tree; call it when all is placed.
     void finish() {
         for (InstanceItem& item : snapshot.instances) {
             math::Aabb box;

@@ -15,11 +15,11 @@ namespace {
 
 const std::filesystem::path kSponza = "sponza-crytek/Sponza.gltf", kFox = "fox-draco-testdata/Fox/glTF/Fox.gltf";
 
-/// A loaded scene, what is asked of it, and the answers against the reference.
+/// A loaded scene, queries about it, and the answers against the reference.
 struct AskedScene : test::LoadedScene {
     using LoadedScene::LoadedScene;
 
-    /// A sun, a lamp with a range and a spot, all of which reach a good part of it.
+    /// Returns a sun, a lamp with a range and a spot; each reaches a good part of the scene.
     std::vector<LightItem> lights() const {
         const math::Aabb box = bounds();
         const glm::dvec3 size = box.max - box.min;
@@ -129,7 +129,7 @@ TEST(QueriesOfRealScenes, TheFoxDarkensWhereItsBonesHaveTakenIt) {
     }
     EXPECT_GT(all.dark, 5000u);
     EXPECT_LT(all.ambiguous, 100u);
-    // A tree that stays as it was is wrong: the poses' versions alone tell it otherwise.
+    // Control: without a new version of the pose, the tree stays as it was and is wrong.
     const std::uint64_t version = scene->snapshot.poses[0].version;
     scene->move_to(0.35);
     scene->snapshot.poses[0].version = version;

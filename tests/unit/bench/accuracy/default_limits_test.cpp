@@ -29,8 +29,8 @@ TEST(Promise, NamesEachErrorAboveItsBoundAndWhatTexelsExplainOfIt) {
 }
 
 TEST(Promise, ExplainsNoMoreThanThereIs) {
-    // Wrong pixels that are no leak, within 2 px of an edge, are not far, so far is at most what there is; rounding of
-    // shares that were read from a file is not to print less than nothing.
+    // A wrong pixel without leak is not far within 2 px of an edge, so the far share is at most the wrong share.
+    // Rounding, in shares read from a file, must not print less than nothing.
     EXPECT_THAT(promise_words({0.001, 0.0, 0.0, 0.0006, 0.0004000001}), HasSubstr("none of that within"));
 }
 

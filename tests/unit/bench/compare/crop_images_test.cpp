@@ -13,7 +13,7 @@ using truth::soft_error_colour;
 
 constexpr glm::uvec2 kSize_px{640, 360};
 
-/// Everything lit but a chequered square, whose lower corner that is.
+/// Makes a truth that is lit except for a chequered square with its lower corner at `low`.
 oracle::LightTruth chequered(glm::uvec2 low, std::uint32_t side_px) {
     oracle::LightTruth truth;
     const std::size_t count = std::size_t{kSize_px.x} * kSize_px.y;

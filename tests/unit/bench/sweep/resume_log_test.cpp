@@ -30,7 +30,7 @@ protected:
     }
     void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
 
-    /// A row with every figure, each another one.
+    /// Makes a row with every figure, each with a different value.
     static JudgedRow full_row(const std::string& name) {
         JudgedRow row{name, std::nullopt, {}};
         LightRow& light = row.lights.emplace_back();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
-/// What a row's settings make of the defaults; a setting that is none fails the test.
+/// Applies a row's settings to the defaults; an unknown setting fails the test.
 game::LightSettings settings_of(const SweepRow& row) {
     game::LightSettings settings;
     for (const std::string& setting : row.settings)
@@ -26,7 +26,7 @@ game::LightSettings settings_of(const SweepRow& row) {
     return settings;
 }
 
-/// Whether a row of that factor, for that kind, has settings that please.
+/// Returns whether a row of that factor, for that kind, has settings that satisfy `pleases`.
 template <class Pleases>
 bool covers(const std::vector<SweepRow>& plan, const std::string& factor, LightKind kind, const Pleases& pleases) {
     return std::any_of(plan.begin(), plan.end(), [&](const SweepRow& row) {

@@ -32,8 +32,8 @@ assets::Node& add_node(assets::SceneData& scene, const std::string& name, const 
     return node;
 }
 
-/// A walker at the origin that looks along +X; a wall 4 m ahead; a spot 6 m behind and 3 m up that shines on the
-/// walker; a crate between them, if wanted.
+/// Makes a level with a walker at the origin that looks along +X, and a wall 4 m ahead. A spot 6 m behind and 3 m up
+/// shines on the walker. `crate`: a crate stands between the two.
 Level small_level(bool crate) {
     assets::SceneData scene;
     scene.materials.emplace_back();
@@ -72,7 +72,7 @@ void play(Game& game, const GameInput& input, double seconds) {
     for (int i = 0; i < static_cast<int>(seconds / kStep_s); ++i) game.step(input);
 }
 
-/// The walk of --demo to its end.
+/// Plays the walk of --demo to its end.
 std::vector<GameState> demo(const Level& level) {
     Game game(level);
     std::vector<GameState> states{game.state()};
@@ -260,7 +260,7 @@ TEST(Courtyard, TheCameraStandsBehindThePlayerAndNeverInAWall) {
     EXPECT_LT(Game(level).camera_m().x, -12.0);
 }
 
-/// Where the flight of stairs begins, looking up along it.
+/// Makes the courtyard with the start before the flight of stairs, looking up along it.
 Level before_the_stairs() {
     Level level = courtyard();
     level.lamps.clear();

@@ -62,7 +62,7 @@ private:
     std::vector<LightItem> lights_;
 };
 
-/// A share of what all want.
+/// Returns limits that are shares of what all lights request.
 BudgetLimits share_of(const std::vector<LightLoad>& loads, double bytes, double ns) {
     const BudgetUse all = use_of(loads, std::vector<QualityLimits>(loads.size()), {});
     return {static_cast<std::uint64_t>(bytes * static_cast<double>(all.bytes)),
@@ -140,8 +140,9 @@ TEST(Budget, DoesNotDependOnTheOrderOfLights) {
     }
 }
 
-/// Whether no light loses more, as a share of what it is worth, than one that is worth half as much. All are alike but
-/// for that. (Of two that are nearly alike, what is left of the budget may do for the lesser alone.)
+/// Returns whether no light loses a larger share of its worth than a light that is worth at most half as much. All are
+/// alike except for that worth. (Two nearly alike are not compared: what is left of the budget may suffice for the
+/// lesser alone.)
 bool sheds_by_weight(const std::vector<LightLoad>& loads, const std::vector<QualityLimits>& grants) {
     const auto lost = [&](std::size_t i) { return cost_of(loads[i], grants[i], {}).harm / loads[i].weight; };
     for (std::size_t a = 0; a < loads.size(); ++a)
@@ -170,14 +171,14 @@ TEST(Budget, TakesFromThoseThatAreSeenLeastFirst) {
         const BudgetLimits limits =
             share_of(loads, i % 2 == 0 ? random.number(0.05, 0.95) : 2.0, i % 2 == 1 ? random.number(0.05, 0.95) : 2.0);
         shed += sheds_by_weight(loads, taken_from(loads, limits)) ? 1 : 0;
-        // One that takes from the first of the list is noticed.
+        // Control: taking from the first of the list is noticed.
         std::vector<QualityLimits> by_order(loads.size());
         for (std::size_t l = 0; l < loads.size() && !holds(limits, use_of(loads, by_order, {})); ++l)
             by_order[l].none = true;
         noticed += sheds_by_weight(loads, by_order) ? 0 : 1;
     }
-    // Steps are taken one by one, and what is left over may do for a step of a lesser light alone: in 0.7 to 1.3 % of
-    // 10 000 sets, by the filter, some light loses more than one of half its weight.
+    // Steps are taken one by one, and what is left over may suffice for a step of a lesser light alone. So in 0.7 to
+    // 1.3 % of 10 000 sets, by the filter, some light loses more than another of half its weight.
     EXPECT_GE(shed, kSets * 98 / 100);
     EXPECT_GT(noticed, kSets * 9 / 10) << "the last of them may be all";
 }
@@ -346,12 +347,12 @@ TEST(CostCalibration, BelievesNoOutlierAndNothingThatIsNoTime) {
     EXPECT_EQ(factor, CostCalibration::kLeastFactor);
 }
 
-/// What is written is what is held: a spot's map has one view.
+/// Checks that a map has as many bytes as its draw writes: a spot's map has one view.
 TEST(BudgetCost, CountsEveryByteOfATexelThatAFilterHasDrawn) {
     LightItem light;
     light.kind = LightKind::spot;
     for (const FilterRow& row : filter_table()) {
-        if (row.moments) continue;      // whose blur is counted as fetches
+        if (row.moments) continue;      // their blur counts as fetches
         if (row.storage.occluder_pyramid) continue;  // sheets, and what is made of them
         ShadowRequest demand;
         demand.map.filter = row.id;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPixels = 1000.0 * 1000.0;
 
-/// What a clock learns of lighting where a light that asks by rays takes twice what the model says of `drawn`, and its
-/// report says `said`.
+/// Returns the factor that a clock learns for lighting. The light requests the exact filter, takes twice what the
+/// model gives for `drawn`, and its report names `said`.
 double learned_factor(ShadowFilter drawn, ShadowFilter said) {
     SceneSnapshot scene;
     scene.lights.resize(1);
@@ -37,8 +37,8 @@ double learned_factor(ShadowFilter drawn, ShadowFilter said) {
     return clock.factors().lighting;
 }
 
-/// A fault that lasts would have it take the device for a faster one, and a budget grant what does not hold once it is
-/// over.
+/// Guards against a fault that lasts: it would make the device seem faster. A budget would then grant what does not fit
+/// once the fault is over.
 TEST(CostCalibration, CountsTheFilterThatWasDrawn) {
     for (const ShadowFilter drawn : {ShadowFilter::exact, ShadowFilter::hard, ShadowFilter::automatic})
         EXPECT_NEAR(learned_factor(drawn, drawn), 2.0, 0.05);

@@ -8,7 +8,7 @@
 
 #include "tests/unit/math/random_seed.h"
 
-/// Who waits when more views are due than a frame has time for.
+/// Which views are deferred when more are due than a frame has time for.
 namespace gnomon::shadow {
 namespace {
 
@@ -34,7 +34,7 @@ TEST(DrawSpread, HasThoseWaitThatLoseLeastForWhatTheyFree) {
     EXPECT_EQ(waiting(6.0, {{0, 5.0, 0.5, 1}, {1, 5.0, 0.1, 2}}), std::set<std::size_t>{1});
     EXPECT_EQ(waiting(6.0, {{0, 5.0, 0.1, 1}, {1, 1.0, 0.1, 2}, {2, 5.0, 0.5, 3}}), std::set<std::size_t>{0})
         << "of equal harm the one that frees more";
-    // The cheap ones do not free enough; the dear one that does makes their wait needless.
+    // The cheap views free too little. The dear view frees enough, so that deferring the cheap ones is needless.
     EXPECT_EQ(waiting(13.0, {{0, 1.0, 0.01, 1}, {1, 2.0, 0.03, 2}, {2, 9.0, 0.9, 3}, {3, 10.0, kNever, 4}}),
               std::set<std::size_t>{2});
 }

@@ -13,7 +13,7 @@
 namespace gnomon::test {
 namespace {
 
-constexpr double kReach_m = 7.0;  // of a floor of 10 m at least, from near its middle
+constexpr double kReach_m = 7.0;  // from near the middle of a floor of at least 10 m
 constexpr double kClear_m = shadow::kClearOfClipping * kReach_m;
 
 /// From where shadows of lamps at these places are looked for, with boxes around triangles or without.
@@ -117,7 +117,7 @@ TEST_P(LampPlacesTest, AreNearerWhereRaysDecideAndWhereTrianglesAreSmall) {
     EXPECT_GE(place_of(lamp).y, shadow::kClearOfPlanes * kReach_m);
 }
 
-/// Between sheets nearer to each other than floats tell they leave none for the other side.
+/// Checks that, between sheets nearer to each other than floats resolve, places stay between them.
 TEST_P(LampPlacesTest, GoThroughNoSheetThatIsNear) {
     scene.place_floor(10.0);
     const double gap_m = 0.5 * kClear_m;
@@ -127,7 +127,7 @@ TEST_P(LampPlacesTest, GoThroughNoSheetThatIsNear) {
     EXPECT_LT(place.y, 0.9 * gap_m);
 }
 
-/// A sheet of two faces, back to back: the first says which side is before it.
+/// Checks a sheet of two faces, back to back: the first face decides which side is before it.
 TEST_P(LampPlacesTest, AreOnOneSideOfASheetWithTwoFaces) {
     scene.place_floor(10.0);
     scene.place(0, {0, 0, 0}, glm::dmat3({10, 0, 0}, {0, 0, 10}, {0, -10, 0}));

@@ -50,7 +50,7 @@ void add_triangle(assets::Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, 
     }
 }
 
-/// A rectangle of `cells` by `cells` pairs of triangles from `corner` along `u` and `v`.
+/// Adds a rectangle of `cells` by `cells` pairs of triangles from `corner` along `u` and `v`.
 void add_wall(assets::Mesh& mesh, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int cells = 16) {
     const auto at = [&](int i, int k) { return corner + u * (double(i) / cells) + v * (double(k) / cells); };
     for (int i = 0; i < cells; ++i)
@@ -60,7 +60,7 @@ void add_wall(assets::Mesh& mesh, const glm::dvec3& corner, const glm::dvec3& u,
         }
 }
 
-/// 12 m wide, 4 m high, 8 m deep, its floor's middle in the origin.
+/// Makes a room 12 m wide, 4 m high and 8 m deep, its floor's middle in the origin.
 assets::Mesh room() {
     assets::Mesh mesh;
     add_wall(mesh, {-6, 0, -4}, {12, 0, 0}, {0, 0, 8});
@@ -92,7 +92,7 @@ ConsumerItem camera_at(const glm::dvec3& place_ws_m, const glm::dvec3& along) {
     return camera;
 }
 
-/// Any turn, stretch along each axis and shear, mirrored half of the time.
+/// Draws any turn, stretch along each axis and shear, mirrored half of the time.
 glm::dmat3 any_basis(RandomScene& random) {
     glm::dmat3 basis = math::basis_from_back(random.direction());
     for (int axis = 0; axis < 3; ++axis) basis[axis] *= random.number(0.3, 2.0);
@@ -130,7 +130,7 @@ bool sees(const ConsumerItem& c, const glm::dvec3& p_ws) {
            std::abs(p.x) < c.half_height_m * aspect(c);
 }
 
-/// Least view depth of many points on what is seen and receives.
+/// Returns the least view depth of many points on receivers, where the camera sees them.
 double sampled_m(const Meshes& world, RandomScene& random) {
     const ConsumerItem& camera = world.scene.consumers.front();
     double least_m = kInfinity;
@@ -291,7 +291,7 @@ TEST(NearestReceiver, IsWithinTheBoundsWhereNumbersLeaveTheRangeOfDouble) {
     EXPECT_NEAR(world.nearest_m(), 0.002, 1e-4) << "by its bounds";
 }
 
-/// A room with a sun above, seen from its middle; its casters stand in it.
+/// Makes a room with a sun above, seen from near its middle, and a caster that stands in it.
 Meshes lit_room(ShadowFit fit) {
     Meshes world;
     world.place(world.add(room()));

@@ -53,7 +53,7 @@ TEST(LightSets, HoldEveryBlockerOfEverySampledVisiblePoint) {
     EXPECT_GT(left_out, 1000) << "a set of everything would pass too";
 }
 
-/// Where a filter's outermost tap compares instead of `p`: `texels` of its view aside, at the same depth.
+/// Returns where a filter's outermost tap compares instead of `p`: `texels` of its view aside, at the same depth.
 oracle::Vector tap(const ShadowView& view, const glm::dvec3& p, const glm::dvec2& texels) {
     const double distance_m =
         view.projection == ViewProjection::orthographic ? 1.0 : -glm::dot(p - apex_ws_m(view), view.pose.axis_back);
@@ -141,7 +141,7 @@ TEST(LightSets, ATreeOfAnOlderSceneIsNotUsed) {
     build_tree(scene);
     const std::vector<std::uint32_t> before = fitted(scene).sets.receiver_items;
     ASSERT_FALSE(before.empty());
-    // One that was out of sight comes to where one is seen: behind the tree's back, then with a new version.
+    // An instance out of sight moves to where another is seen: first unknown to the tree, then with a new version.
     std::uint32_t unseen = 0;
     const auto out_of_sight = [&](std::uint32_t i) {
         return scene.instances[i].visible && scene.instances[i].receives &&
@@ -154,7 +154,7 @@ TEST(LightSets, ATreeOfAnOlderSceneIsNotUsed) {
     EXPECT_THAT(fitted(scene).sets.receiver_items, ::testing::Contains(unseen));
 }
 
-/// Of the casters that are listed, those on the way from the light to some visible point; the others are kept in vain.
+/// Counts the listed casters on the way from the light to some visible point; the others are listed in vain.
 TEST(LightSets, KeepFewCastersNeedlessly) {
     RandomScene random(print_seed());
     for (const LightKind kind : kKinds) {

@@ -20,7 +20,7 @@ protected:
         item.version = scene.version;
         scene.instances.push_back(item);
     }
-    /// One frame in which these instances change; whether others move now.
+    /// Runs one frame in which these instances change. Returns whether any instance changed its class.
     bool frame(const std::vector<std::uint32_t>& changed = {}) {
         scene.changed_instances = changed;
         if (!changed.empty()) ++scene.version;
@@ -102,7 +102,7 @@ TEST_F(CasterMotionTest, AMissedFrameLosesNothing) {
 
 TEST_F(CasterMotionTest, AChangeThatMapsDoNotShowIsNone) {
     ++scene.version;
-    scene.changed_instances = {9};  // to upload: its version is as it was
+    scene.changed_instances = {9};  // listed for upload; its version is as it was
     EXPECT_FALSE(motion.update(scene));
     EXPECT_FALSE(moving(9));
 }

@@ -37,7 +37,7 @@ public:
         EXPECT_TRUE(made);
         if (made) gpu_.emplace(std::move(made).value());
     }
-    /// `max_point_px` 1: as quads alone, so that all items are large.
+    /// Gathers the items before a view. `max_point_px` 1: quads alone, so that all items are large.
     shadow::BoundsItems before(const shadow::ShadowView& view, std::uint32_t max_point_px = 1) {
         shadow::BoundsItems items;
         shadow::BoundsGatherer gatherer(max_point_px);
@@ -130,7 +130,7 @@ TEST(BoundsItems, HoldAFoldBetweenFrontAndBackHoweverItIsWound) {
     }
 }
 
-/// Every fold, by corners in the world, in double.
+/// Checks every border and fold against corners in the world, in double.
 TEST(BoundsItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
     std::mt19937_64 random(print_seed());
     std::uniform_real_distribution<double> share(-1.0, 1.0);
@@ -193,7 +193,7 @@ TEST(BoundsItems, LeaveOutWhatIsFlat) {
     const auto tilted = [](double tangent) { return sun({tangent, 0.0, 1.0}); };
     EXPECT_THAT(SheetItemsOf(scene).before(tilted(3.9)).large[shadow::BoundsItems::triangles], IsEmpty());
     EXPECT_THAT(SheetItemsOf(scene).before(tilted(6.0)).large[shadow::BoundsItems::triangles], SizeIs(2));
-    // By the ray that is met most obliquely: at the square's corner, of 1.6 m from its middle at most.
+    // The ray that is met most obliquely counts: at the square's corner, of 1.6 m from its middle at most.
     EXPECT_THAT(SheetItemsOf(scene).before(lamp({0.0, 0.0, 2.0})).large[shadow::BoundsItems::triangles], IsEmpty());
     EXPECT_THAT(SheetItemsOf(scene).before(lamp({2.0, 0.0, 0.2})).large[shadow::BoundsItems::triangles], SizeIs(2));
     // What float places coarsely is drawn however flat it is.
@@ -226,7 +226,7 @@ TEST(BoundsItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
     for (int i = 0; i < 120; ++i) {
         oracle::AnalyticScene scene;
         const std::uint32_t cube = scene.add_cube();
-        // Of a hundredth of a texel to all of the map, and around the lamp itself.
+        // Sizes from a hundredth of a texel to all of the map, and some cubes around the lamp itself.
         const double size_m = std::pow(10.0, -4.5 + 2.5 * (1.0 + share(random)));
         scene.place(cube, {2.0 * share(random), 2.0 * share(random), 2.0 * share(random)}, glm::dmat3(size_m));
         const glm::dvec3 at(share(random), share(random), share(random) + 1.5);
@@ -296,11 +296,11 @@ TEST(BoundsItems, HaveTrianglesOfMasksApartAndEndSheetsAtThem) {
     scene.library.meshes[mesh].submeshes = {{0, 3, 0}, {3, 3, 1}, {6, 3, 2}};
     scene.place(mesh, {});
     const shadow::BoundsItems items = SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2}));
-    EXPECT_THAT(items.large[shadow::BoundsItems::contours], SizeIs(3));  // of the opaque triangle alone
+    EXPECT_THAT(items.large[shadow::BoundsItems::contours], SizeIs(3));  // the opaque triangle's alone
     EXPECT_THAT(items.large[shadow::BoundsItems::masked], SizeIs(1));
 }
 
-/// A number of shaders/shadow/filters/exact/error_margins.glsl, or of another file there, as it stands there, with margins.
+/// Reads a margin from the text of shaders/shadow/filters/exact/error_margins.glsl, or of another shader file.
 double in_shaders(const std::string& name, const std::string& path = "shadow/filters/exact/error_margins.glsl") {
     for (const gl::ShaderFile& file : shader_files()) {
         if (file.path != path) continue;

@@ -39,7 +39,8 @@ std::vector<shadow::ShadowView> faces() {
     return views;
 }
 
-/// A spot in the origin that shines along -z, with one view of tangent 1 from 0.1 m on.
+/// Measures the clearance of a spot in the origin that shines along -z, with one view of tangent 1 from 0.1 m on.
+/// Without `whole_view` the tangent is 0.5; `cube`: a point light with six faces.
 double clearance(oracle::AnalyticScene& scene, bool whole_view = true, bool cube = false) {
     gl::RecordingDevice device;
     auto gpu = GpuScene::create(device, scene.library);
@@ -144,7 +145,7 @@ TEST(Clearance, IsTheLeastDistanceOfAnyPointOfAnyTriangle) {
             least_m = std::min(least_m, glm::length(p));
         }
         const double found_m = clearance(scene);
-        if (found_m >= kMost_m * (1.0 - 1e-6)) continue;  // it is held whole, or behind
+        if (found_m >= kMost_m * (1.0 - 1e-6)) continue;  // the view contains it whole, or it is behind
         EXPECT_LE(found_m, least_m + 1e-9);
         EXPECT_GE(found_m, least_m - 0.1) << "the nearest of so many points is no farther away";
     }

@@ -7,8 +7,8 @@
 #include "tests/long_run.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// Maps have as many texels as LightShadow::max_error_px asks for: the prediction is met, or the map is as large as it
-/// may be; and their sizes stay while a camera walks.
+/// Maps have as many texels as LightShadow::max_error_px requires: the prediction meets it, or the map is as large as
+/// it may be. Their sizes stay while a camera walks.
 namespace gnomon::shadow {
 namespace {
 
@@ -70,7 +70,7 @@ TEST_P(Contract, IsKeptByThePredictionOrTheMapIsAsLargeAsItMayBe) {
             if (frame.fitted.views.empty()) continue;
             const ShadowRequest& demand = frame.fitted.lights[0].request;
             EXPECT_LE(demand.map.resolution_px, demand.limits.max_px);
-            // A step more: where fewer texels err far more than in proportion, the last of the fits asks for too many.
+            // A step more: where fewer texels err far more than in proportion, the last of the fits requests too many.
             EXPECT_LE(demand.map.resolution_px, finer + kLeastMap_px) << "asking for less gave more";
             finer = demand.map.resolution_px;
             smaller += demand.map.resolution_px < demand.limits.max_px ? 1 : 0;
@@ -88,7 +88,7 @@ TEST_P(Contract, IsKeptByThePredictionOrTheMapIsAsLargeAsItMayBe) {
         }
     }
     std::cout << kept << " kept, " << smaller << " by maps smaller than they might be\n";
-    // Of a point light 400 on the average, give or take 33: of 300 scenes each counts up to five times.
+    // A point light counts 400 on the average, give or take 33: each of 300 scenes counts up to five times.
     EXPECT_GT(kept, 150) << "the test says something";
     EXPECT_GT(smaller, 50);
 }
@@ -162,9 +162,9 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
     }
 }
 
-/// A size that seems to do, and is found too small when it is tried, is not tried again and again.
+/// Checks that a size that seems to do, and proves too small when it is tried, is not tried again and again.
 TEST_P(Contract, ComesToRest) {
-    // 1072: half of the texels err seven times as much, which asks for twice of what did.
+    // Seed 1072: with half of the texels the error is seven times as large, so that twice the size is requested again.
     const int scenes = kSanitized ? 1 : is_long_run() ? 60 : 12;
     int tried_in_vain = 0;
     for (const std::uint64_t seed : {print_seed(), std::uint64_t{1072}}) {

@@ -30,7 +30,7 @@ TEST(ContractCascades, StayWhileTheyTakeLessThanTwiceTheTexelsAndKeepTheWord) {
     EXPECT_EQ(chosen({1.9, 1.9, 1.9}, {400, 799, 400}, 2), 1u) << "fewer do";
 }
 
-/// Beside a pixel of the picture's own, which no map takes away.
+/// Counts errors beyond a pixel: that pixel is the picture's own, and no map takes it away.
 TEST(ContractCascades, WhereNoneKeepTheWordEachDoublingHalvesTheErrorOfTheSameTexelsOrIsLeft) {
     // Twice as many maps of one size have twice the texels, which of themselves divide the error by the root of 2.
     const std::vector<std::uint64_t> same{100, 200, 400};
@@ -54,7 +54,7 @@ TEST(ContractCascades, StayWhileAnotherNumberIsHardlyBetter) {
 
 class CountedCascades : public ::testing::Test {
 protected:
-    /// A small thing far away, or close by with all behind it: what a sun's light falls on.
+    /// Makes ground and casters that a sun lights: small and far away, or close by with all behind.
     static SceneSnapshot scene(double near_m, double far_m) {
         SceneSnapshot s;
         const auto add = [&](const glm::dvec3& centre, const glm::dvec3& half, bool casts) {

@@ -23,7 +23,7 @@ vec2x pixel_of(const ConsumerItem& c, const vec3x& p_ws) {
     return vec2x(along(0), along(1)) / -along(2) / (2 * half_y) * static_cast<Exact>(c.viewport_px.y);
 }
 
-/// The point of the plane (p_ws, normal) that lies texel (du, dv) beside p_ws in the map.
+/// Returns the point of the plane (p_ws, normal) that lies texel (du, dv) beside p_ws in the map.
 vec3x beside(const ShadowView& view, const vec3x& p_ws, const vec3x& normal, Exact du, Exact dv) {
     const bool flat = view.projection == ViewProjection::orthographic;
     const vec3x anchor(apex_ws_m(view)), back(view.pose.axis_back);
@@ -76,7 +76,7 @@ protected:
 TEST_P(PredictedError, ATexelsExtentIsWhatShiftingThePointByATexelShows) {
     int cases = 0;
     for_each_case(200, [&](const ShadowFrame&, const Case& c) {
-        constexpr Exact kSmall = 1e-6L;  // of a texel: the extent is a derivative
+        constexpr Exact kSmall = 1e-6L;  // texel; the extent is a derivative
         const vec3x p(c.p_ws), n(c.normal);
         Exact extent_px = 0;
         for (const int sign : {-1, 1}) {
@@ -117,7 +117,7 @@ TEST(StatedError, IsThePredictedOneWithinSixtyDegreesAndGrowsAsOneOverTheCosine)
 }
 
 TEST_P(PredictedError, IsNotLooserThanTheTiltItAllows) {
-    // Over a scene, the largest extent of planes square to the light comes near the bound, but for the tilt and for
+    // Over a scene, the largest extent of planes square to the light comes near the bound. The rest is the tilt, and
     // corners that no sample hit.
     std::vector<double> ratios;
     for_each_case(1000, [&](const ShadowFrame&, const Case& c) {

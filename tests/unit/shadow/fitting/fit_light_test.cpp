@@ -13,8 +13,9 @@ namespace {
 /// Map coordinates and depth as the shaders compute them: float matrix, float offset from the anchor.
 class FitTest : public ::testing::TestWithParam<LightKind> {
 protected:
-    /// The view whose map the point is looked up in, and the margin it keeps there, in map edges.
-    /// Of faces around a local light, only the one that looks most nearly toward the point.
+    /// Returns the view that the point is looked up in, or nullptr. Its map contains the point with the filter's
+    /// margin, except on a cube's face. Among faces around a local light, only the face that looks most nearly toward
+    /// the point counts.
     const ShadowView* view_of(const ShadowFrame& frame, const SceneSnapshot& scene, const glm::dvec3& p) const {
         const double margin = static_cast<double>(filter_settings(scene.lights[0], 512).widest_texel) /
                               scene.lights[0].shadow.resolution_px;

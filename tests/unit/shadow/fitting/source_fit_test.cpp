@@ -8,7 +8,7 @@
 #include "tests/long_run.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// Maps of lights whose source has a size.
+/// Maps of lights with a source that has a size.
 namespace gnomon::shadow {
 namespace {
 
@@ -28,8 +28,9 @@ struct Counts {
     int pairs = 0, outside = 0, flattened = 0, unlisted = 0;
 };
 
-/// How many texels around a receiver, along its map's finer side, a lamp's filter looks at (light_size.glsl): its picture of
-/// the source is the ellipse of a disk that is small beside its distance. A large one's inner side reaches farther.
+/// Computes how many texels around a receiver, along its map's finer side, a lamp's filter reads (light_size.glsl). The
+/// filter's picture of the source is the ellipse of a disk that is small beside its distance. A large disk's inner side
+/// reaches farther.
 double lamp_reads_texel(const ShadowView& view, const glm::dvec3& p, double radius_m) {
     const glm::dvec3 d = p - apex_ws_m(view);
     const double z_m = -glm::dot(d, view.pose.axis_back);
@@ -40,8 +41,8 @@ double lamp_reads_texel(const ShadowView& view, const glm::dvec3& p, double radi
 
 constexpr int kRounds = kSanitized ? 100 : 300;
 
-/// Receivers that are seen, and points of casters that hide some of the source from them: whether the view that serves
-/// the receiver shows the caster, and at its own depth.
+/// Draws points of seen receivers, and of casters that hide some of the source from them. Counts the pairs, and those
+/// where the view that serves the receiver lacks the caster or changes its depth.
 Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit fit) {
     constexpr double kRadius_m = 1.0, kTan = 0.1, kMap_px = 512.0, kMost_texel = kMap_px / 8.0;
     const bool soft = filter == ShadowFilter::pcss;

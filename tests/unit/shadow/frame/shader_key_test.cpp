@@ -15,7 +15,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "tests/source_paths.h"
 
-/// What a row's shaders are compiled with is said in one place, and the guide and its example leave nothing of it out.
+/// One place states what a row's shaders are compiled with, and the guide and its example leave nothing of it out.
 namespace gnomon::shadow {
 namespace {
 
@@ -47,7 +47,7 @@ Names names_of(const std::vector<std::string>& defines) {
 
 ShaderKey shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", "shadow/filters/pcf/hard.glsl"}; }
 
-/// Of a row, everything that may be so.
+/// Returns a row with everything set that may be.
 ShaderKey full_row() {
     ShaderKey row = shadowed_row();
     auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
@@ -60,10 +60,10 @@ ShaderKey full_row() {
     return row;
 }
 
-/// Rows' names that lines of C++ spell in quotes.
+/// Returns the rows' names that lines of C++ spell in quotes.
 Names spelt_in(const std::string& code) { return found(code, "\"(SHADOW\\w*|RAY_MASKS)\\b"); }
 
-/// What every shader says in code, without comments.
+/// Returns the code of every shader, without comments.
 std::string shader_code() {
     std::string code;
     for (const gl::ShaderFile& file : shader_files()) code += std::string(file.text) + "\n";
@@ -128,8 +128,9 @@ TEST(ShaderKey, EveryFileThatADefineNamesIsThere) {
     EXPECT_EQ(files, 2u * 6u * 5u);
 }
 
-/// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,
-/// and what tests of the bias take away. Texts for all lights have a define more, for blended taps.
+/// Checks that each define that shaders read and none of them sets comes from a row, and each of a row's is read.
+/// Exceptions: what LightPrograms sets for its own passes, and the share of the bias that tests take away. Texts for
+/// all lights have a define more, for blended taps.
 TEST(ShaderKey, NoShaderAsksForAnythingThatNobodyDefines) {
     const std::string code = shader_code();
     const Names asked = found(code, "\\b(SHADOW_[A-Z_]+|RAY_MASKS)\\b");
@@ -155,7 +156,7 @@ TEST(ShaderKey, TheGuideNamesEveryDefine) {
     EXPECT_EQ(table, wanted);
 }
 
-/// Nobody spells them once more: who does leaves the next one out.
+/// Checks that no other code spells them once more: such code would leave the next define out.
 TEST(ShaderKey, NoOtherCodeSpellsThem) {
     const std::filesystem::path root = test::source_folder();
     EXPECT_FALSE(spelt_in(text_of(root / "systems/shadow/frame/shader_key.cpp")).empty()) << "what is looked for is found";

@@ -16,7 +16,7 @@ namespace {
 constexpr LightKind kLamps[] = {LightKind::point, LightKind::spot};
 constexpr double kDistances_m[] = {2e3, 1e5, 1e7, 1e9};
 
-/// The random scene's boxes, whose lamp stands `distance_m` from their middle and looks at it.
+/// Makes the random scene's boxes, with a lamp that stands `distance_m` from their middle and looks at it.
 SceneSnapshot far_scene(RandomScene& random, LightKind kind, double distance_m) {
     SceneSnapshot scene = random.scene(kind);
     LightItem& light = scene.lights[0];
@@ -39,19 +39,19 @@ struct Placed {
     glm::dvec2 map{0.0};
     double depth = 0.0;
 };
-/// As the depth pass and the lookup place it: in float, from the anchor.
+/// Places a point as the depth pass and the lookup do: in float, from the anchor.
 Placed placed(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
     return {glm::dvec2(q) / static_cast<double>(q.w), static_cast<double>(q.z / q.w)};
 }
-/// In double, from the light itself.
+/// Places a point in double, from the light itself.
 Placed truly(const ShadowView& view, const LightItem& light, const glm::dvec3& p_ws) {
     const glm::dvec3 p = (p_ws - light.position_ws_m) * glm::dmat3(view.pose.axis_u, view.pose.axis_v, view.pose.axis_back);
     return {(glm::dvec2(p) / -p.z - view.plane.tan_low) / (view.plane.tan_high - view.plane.tan_low),
             view.depth.near_m * (view.depth.far_m + p.z) / (-p.z * (view.depth.far_m - view.depth.near_m))};
 }
 
-/// How far a depth that is off by so much is off along the view's axis, as a share of a texel's diagonal there.
+/// Converts an error of depth to one along the view's axis, as a share of a texel's diagonal there.
 double off_texel(const ShadowView& view, const LightItem& light, const glm::dvec3& p_ws, double depth_off) {
     const double z_m = glm::dot(light.position_ws_m - p_ws, view.pose.axis_back);
     const double off_m = depth_off * z_m * z_m * (view.depth.far_m - view.depth.near_m) / (view.depth.near_m * view.depth.far_m);
@@ -104,13 +104,13 @@ TEST(FarLampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
         const TangentRectangle sides{view->plane.tan_low, view->plane.tan_high};
         const ShadowView about_lamp = perspective_view(apex_ws_m(*view), {view->pose.axis_u, view->pose.axis_v, view->pose.axis_back},
                                                        sides, {view->depth.near_m, view->depth.far_m}, 2048.0);
-        // The matrix's own rounding shifts all depths alike, those of casters as well: between two it says nothing.
+        // The matrix's own rounding shifts all depths alike, those of casters as well: it changes no comparison of two.
         const glm::dvec3& first_ws = frame.sets.receiver_points_ws.front();
         const double shift = placed(*view, first_ws).depth - truly(*view, scene.lights[0], first_ws).depth;
         for (const glm::dvec3& p_ws : frame.sets.receiver_points_ws) {
             const Placed at = placed(*view, p_ws), truth = truly(*view, scene.lights[0], p_ws);
             EXPECT_LT(glm::length(at.map - truth.map) * 2048.0, kMostOff_texel) << round;
-            // Depths as coarse as texels are said to be so: of a caster that stands beside the lamp.
+            // Depths are as coarse as texels only where the request notes it: a caster stands beside the lamp.
             if (frame.fitted.lights[0].request.note != Reason::depth_coarse) {
                 EXPECT_LT(off_texel(*view, scene.lights[0], p_ws, std::abs(at.depth - truth.depth - shift)), 1.0) << round;
             }
@@ -121,7 +121,7 @@ TEST(FarLampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
     EXPECT_GT(worst_about_lamp, 16.0 * kMostOff_texel) << "the anchor at the lamp would do";
 }
 
-/// A ground with a post, a camera that looks at its middle.
+/// Makes a ground with a post, and a camera that looks at its middle.
 SceneSnapshot yard(double distance_m) {
     RandomScene random(1);
     SceneSnapshot scene = far_scene(random, LightKind::point, distance_m);
@@ -193,7 +193,7 @@ TEST(FarLampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
     EXPECT_FALSE(aims_at(0.95 * begins_m));
 }
 
-/// A search that ends at what is too wide for any aim must not end at what is not.
+/// Checks that a search that ends at what is too wide for any aim does not end at what is not.
 TEST(FarLampAim, IsTheSameInWhateverOrderReceiversAreFound) {
     const std::uint64_t seed = print_seed();
     RandomScene random(seed);

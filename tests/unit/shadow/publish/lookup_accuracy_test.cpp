@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kExtent_px = 0.75, kWideTexel_m = 0.25, kFarRounding_px = 0.01;
 
-/// A view whose fit counts with `filter`, in a map of its own size.
-/// One light with one view in a map of the size that it was fitted for.
+/// One light with one view, in a map of the size that it was fitted for. The view's errors are those of `filter`.
 struct Case {
     explicit Case(ShadowFilter filter) : fitted{std::vector<FitChoice>(1), std::vector<ShadowView>(1), {}, {}, {}} {
         const FilterRow& row = filter_row(filter);

@@ -27,7 +27,7 @@ glm::uvec3 cell_of_point(const NoiseCell& camera, const glm::vec3& position_ca, 
     return cell;
 }
 
-/// Of points on the ground about `origin`, those whose cell is another once the camera has moved.
+/// Returns the share of points on the ground about `origin` that have another cell once the camera has moved.
 double share_that_crawls(const glm::dvec3& origin, const glm::dvec3& step, double ground_m) {
     constexpr double kCell_m = 0.02;
     constexpr int kPoints = 20000;

@@ -6,8 +6,8 @@
 
 #include "systems/shadow/frame/shadow_frame.h"
 
-/// Which lights' lookups are signed at all, and what of a light and of its map counts (visibility_hash.h). What a kept
-/// picture follows from besides is held by tests/system/kept_visibility_test.cpp.
+/// Which lights' lookups are signed at all, and what of a light and of its map counts (visibility_hash.h).
+/// tests/system/kept_visibility_test.cpp covers what else a kept picture follows from.
 namespace gnomon::shadow {
 namespace {
 

@@ -298,7 +298,7 @@ TEST_P(FittedFilter, ComesToRest) {
     }
 }
 
-/// What a budget has not shared out is not taken.
+/// Checks that a light takes nothing that a budget has not shared out.
 TEST_P(FittedFilter, WaitsForTheNextFrameWithinABudget) {
     RandomScene random(print_seed());
     int waited = 0;

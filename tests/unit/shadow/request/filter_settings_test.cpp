@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::uint32_t kMap_px = 1024;
 
-/// A light of that filter.
+/// Makes a light of that filter.
 LightItem of(ShadowFilter filter, const ShadowTuning::Kernel& kernel = {}) {
     LightItem light;
     light.shadow.filter = filter;
     light.tuning.kernel = kernel;
     return light;
 }
-/// One whose source has that size, whichever its kind.
+/// Makes a light of either kind with a source of that radius: radians for a sun, metres for a lamp.
 LightItem sized(LightKind kind, float size) {
     LightItem light = of(ShadowFilter::pcss);
     light.kind = kind;

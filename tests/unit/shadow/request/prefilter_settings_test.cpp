@@ -49,8 +49,8 @@ struct Moments {
 }  // namespace shader
 
 struct Surface {
-    double share;   // of the depth range
-    double weight;  // of the blurred texels
+    double share;   // depth as a share of the range
+    double weight;  // share of the blurred texels
 };
 
 LightItem tuned(const ShadowTuning::Moments& moments) {
@@ -67,7 +67,7 @@ public:
         : demand_(prefilter_settings(filter_row(filter),
                                 tuned({.bits = bits, .exponent = exponent, .negative_exponent = negative}), 1024)) {}
 
-    /// What is stored of these surfaces, each step rounded to the format: texels, blurred along u, then along v.
+    /// Returns what is stored of these surfaces: the blurred sum of their moments, each step rounded to the format.
     vec4 stored(const std::vector<Surface>& surfaces) const {
         vec4 sum;
         for (const Surface& surface : surfaces) {
@@ -188,7 +188,7 @@ TEST(Moments, OfWhatNobodyStoredGiveAShareToo) {
 TEST(Moments, OfOneSurfaceDarkenWhatIsBehindItAndNothingBefore) {
     for (const auto& store : stores()) {
         const double exponent = static_cast<double>(store->demand().settings.x);
-        if (exponent > 0.0 && exponent < 5.0) continue;  // asked for so little contrast
+        if (exponent > 0.0 && exponent < 5.0) continue;  // set for so little contrast
         // How far behind it is dark: what rounding hides, a tenth of it being one percent; of one exponential, its own width.
         double clear = 10.0 * std::sqrt(static_cast<double>(store->demand().settings.z));
         if (exponent > 0.0) clear = std::max(clear, 5.0) / (2.0 * exponent);
@@ -228,7 +228,7 @@ TEST(Moments, OfACasterBeforeTheReceiverGiveItsShare) {
     }
 }
 
-/// The worst that two casters, one over the other's inside, let through; truth: 0.
+/// Returns the most that two casters, one over the other's inside, let through; truth: 0.
 float worst_bleeding(const Store& store, double first, double second, double receiver) {
     float worst = 0.0f;
     for (double covered = 0.02; covered < 1.0; covered += 0.02)

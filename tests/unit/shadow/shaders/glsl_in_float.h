@@ -1,8 +1,8 @@
 #pragma once
 #include <cmath>
 
-/// As much of GLSL as shaders/shadow/filters' prefiltered maps are written in, with floats that stay floats: literals are
-/// doubles in C++, and would hide what rounding does.
+/// The part of GLSL that prefiltered maps of shaders/shadow/filters are written in, with floats that stay floats.
+/// Literals are doubles in C++, and would hide what rounding does.
 namespace gnomon::glsl_in_float {
 
 struct Real {

@@ -38,7 +38,7 @@ protected:
         shader_.light.options.y = static_cast<int>(mode);
         return shader_.manual_bias(shader_.orthographic_place(sun_, cosine, kRange_m));
     }
-    /// A point 10 m before the light, off its axis.
+    /// Returns the bias at a point 10 m before the light, off its axis.
     Shader::Bias of_lamp(BiasMode mode, bool cube) {
         shader_.light.options.y = static_cast<int>(mode);
         const vec3 at(3.0, 4.0, -10.0), toward = at * (-1.0 / length(at));
@@ -78,7 +78,7 @@ TEST_F(ManualBias, OfTheTutorialsIsMetresTowardAPointLight) {
     for (const auto& [mode, amount_m] :
          {std::pair(BiasMode::tutorial_constant, 0.005), std::pair(BiasMode::tutorial_cosine, 0.05 * (1.0 - kCosine)),
           std::pair(BiasMode::tutorial_tangent, 0.005 * kTangent)}) {
-        // The point so many metres nearer along the ray has a z smaller by the same share.
+        // A point `amount_m` nearer along the ray has a z smaller by the same share.
         const double nearer_m = 10.0 * (1.0 - amount_m / distance_m);
         EXPECT_NEAR(of_lamp(mode, true).depth, 0.2 / nearer_m - 0.2 / 10.0, 1e-12);
     }

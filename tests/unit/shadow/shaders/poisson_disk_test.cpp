@@ -38,7 +38,7 @@ double nearest(const std::vector<glm::dvec2>& points, std::size_t count, const g
 constexpr int kLattice = 64;
 constexpr double kBeyondRim = 0.3;
 
-/// What the method stated beside the table makes as large as it can be.
+/// Computes what the method stated beside the table makes as large as it can be.
 double merit(const std::vector<glm::dvec2>& points, std::size_t count, const glm::dvec2& p) {
     return std::min(nearest(points, count, p), 2.0 * (1.0 - glm::length(p)) + kBeyondRim);
 }

@@ -24,7 +24,7 @@ class RandomPlacements {
 public:
     explicit RandomPlacements(std::uint64_t seed) : random(seed) {}
 
-    /// Turned by up to so much, stretched a little, some of them mirrored.
+    /// Draws a placement: turned by up to 3 rad, stretched by 0 to 2, mirrored half of the time.
     Placement anywhere(double reach_m) {
         const glm::dmat3 turn = glm::mat3_cast(glm::angleAxis(random.number(0.0, 3.0), random.direction()));
         const glm::dvec3 scale(random.number(0.5, 2.0), random.number(0.5, 2.0), random.number(-2.0, 2.0));
@@ -70,7 +70,7 @@ ShadowView lamp_view(RandomScene& random) {
     return view;
 }
 
-/// In the view: x and y across, z along.
+/// Computes the point's place in the view: x and y across, z along.
 glm::dvec3 in_view(const ShadowView& view, const glm::dvec3& p) {
     const glm::dvec3 d = p - view.pose.anchor_ws_m;
     return {glm::dot(d, view.pose.axis_u), glm::dot(d, view.pose.axis_v), -glm::dot(d, view.pose.axis_back)};

@@ -28,7 +28,7 @@ assets::SceneData load(const CourtyardOptions& options = {}) {
     return std::move(scene).value();
 }
 
-/// > 0 if the closed mesh is wound outward.
+/// Computes the signed volume of a closed mesh: above 0 if it is wound outward.
 double signed_volume(const assets::Mesh& mesh) {
     double volume = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -119,7 +119,7 @@ TEST(Courtyard, TheBuiltInSceneIsTheDefault) {
     EXPECT_EQ(scene.value().meshes.size(), load().meshes.size());
 }
 
-/// The guard's vertices in the world at a time.
+/// Computes the box around the guard's vertices in the world at a time.
 math::Aabb guard_at(double time_s) {
     ecs::Registry registry;
     assets::MeshLibrary library;

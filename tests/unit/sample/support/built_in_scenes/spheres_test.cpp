@@ -25,7 +25,7 @@ TEST(Spheres, AreSixtyThousandTrianglesUnderOneSun) {
     EXPECT_EQ(scene.cameras[0].name, "main");
 }
 
-/// What makes it hard: surfaces that meet without an edge between them.
+/// Checks what makes the scene hard: surfaces that meet without an edge between them.
 TEST(Spheres, MeetEachOtherAndTheGround) {
     const auto loaded = load_scene(kSpheresScene);
     ASSERT_TRUE(loaded);

@@ -53,7 +53,7 @@ TEST(Valley, CamerasAndTheVillageStandOnTheGround) {
     EXPECT_EQ(houses, 18);
 }
 
-/// Light would fall through a gap.
+/// Guards against gaps: light would fall through.
 TEST(Valley, TilesOfTheGroundMeetExactly) {
     const assets::SceneData scene = load();
     const auto poses = world_poses(scene);

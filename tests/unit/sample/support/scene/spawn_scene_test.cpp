@@ -15,7 +15,7 @@
 namespace gnomon::game {
 namespace {
 
-/// A box from -1 to 1, faces outward, or inward for a room.
+/// Makes a box from -1 to 1 with its faces outward, or inward for a room.
 assets::Mesh box_mesh(bool inward) {
     assets::Mesh mesh;
     for (int i = 0; i < 8; ++i)
@@ -129,7 +129,7 @@ TEST(Spawn, ExactlyOneCameraIsActive) {
     EXPECT_EQ(find_camera(s.scene, "2").error().rule, "camera.unknown");
 }
 
-/// Every corner of the box seen by the framed camera, in its view, as (x, y) / half picture height; z > 0 in front.
+/// Returns the box's corners as the framed camera sees them: (x, y) / half of the picture's height; z > 0 in front.
 std::vector<glm::dvec3> corners_seen(const Spawned& s, const math::Aabb& box) {
     const Transform& at = *s.registry.get<Transform>(s.scene.cameras[0].entity);
     const double tan_y = std::tan(0.5 * s.registry.get<Camera>(s.scene.cameras[0].entity)->fov_y_rad);

@@ -164,7 +164,7 @@ TEST(CascadeWaste, AStableMapIsItsSphereAndAPlaceToMove) {
     }
 }
 
-/// A wide ground and some boxes, a sun, a camera that looks along the ground.
+/// Makes a wide ground and some boxes, a sun, and a camera that looks along the ground.
 SceneSnapshot street(ShadowFit mode) {
     RandomScene random(77);
     SceneSnapshot scene = random.scene(LightKind::directional, 40);
@@ -209,7 +209,7 @@ TEST(StableFit, RollChangesNoBit) {
     for (int step = 1; step <= 300; ++step) {
         scene.consumers[0].rotation_ws = turned(0.0, 2.0 * 3.14159265358979 * step / 300.0);
         const ShadowFrame rolled = fitted(scene, history);
-        // Rolled far enough, another slice may have no receiver; those that have one are the same.
+        // Rolled far enough, another slice may have no receiver. Views that both frames have are the same.
         for (const ShadowView& view : rolled.fitted.views)
             for (const ShadowView& start : first.fitted.views) {
                 if (view.layer != start.layer) continue;
@@ -220,7 +220,8 @@ TEST(StableFit, RollChangesNoBit) {
     }
 }
 
-/// Along a walk with a pan, counts frames whose views are other pictures, and those whose size or depth range changed.
+/// Numbers of views along a walk with a pan: those with another picture, and those with another size or depth range.
+/// Parted: shifts of a picture by a part of a texel.
 struct Moves {
     int pictures = 0, steps = 0, parted = 0;
 };
@@ -301,7 +302,7 @@ protected:
         scene_.consumers[0].rotation_ws = glm::dmat3(1.0);
         scene_.lights[0].shadow.cascades = 1;
     }
-    /// Of the map in the next frame.
+    /// Returns half of the map's extent in the next frame, with boxes of half size `half_m`.
     double extent_m(double half_m, History& held) {
         for (InstanceItem& item : scene_.instances) item.bounds_ws = {glm::dvec3(-half_m), glm::dvec3(half_m)};
         const ShadowFrame frame = fitted(scene_, held);
@@ -312,7 +313,7 @@ protected:
         History none;
         return extent_m(half_m, none);
     }
-    /// With two steps of headroom, for a camera that goes on turning.
+    /// Checks that a new map has at most two steps of headroom, for a camera that goes on turning.
     void expect_replaced(double extent, double half_m) {
         EXPECT_GE(extent / extent_alone_m(half_m), 1.0);
         EXPECT_LE(extent / extent_alone_m(half_m), 1.42);
@@ -335,7 +336,7 @@ TEST_F(QuantisedSize, ThatIsFourTimesTooLargeStaysForASecond) {
     const double wide = extent_m(20.0, history);
     for (std::uint32_t i = 1; i < kSpareFrames; ++i) ASSERT_EQ(extent_m(5.0, history), wide) << i;
     expect_replaced(extent_m(5.0, history), 5.0);
-    // A glance in between begins it anew.
+    // A glance in between begins the second again.
     (void)extent_m(20.0, history);
     const double again = extent_m(20.0, history);
     for (std::uint32_t i = 0; i < 3 * kSpareFrames; ++i)

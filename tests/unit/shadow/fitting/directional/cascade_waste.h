@@ -6,8 +6,8 @@
 
 namespace gnomon::shadow {
 
-/// 1 - smallest rectangle around the points of a cascade's own slice, up to where the next one serves alone, / what the
-/// map has before its border.
+/// Computes the share of a cascade's map, within its border, that its own slice leaves unused. The slice reaches to
+/// where the next one serves alone, and counts as the smallest rectangle around its points.
 inline double waste(const SceneSnapshot& scene, const ShadowFrame& frame, const ShadowView& view) {
     ConsumerItem slice = scene.consumers[0];
     slice.near_m = view.cascade.seen_from_m;
@@ -38,7 +38,8 @@ inline double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Metres between two depths that a map of `quantum` (of standard, not reversed, depth) can tell apart at z.
+/// Computes the least step between two depths that a map of `quantum` (of standard, not reversed, depth) resolves at z,
+/// metres.
 inline double depth_step_m(double quantum, double near_m, double far_m, double z_m) {
     return quantum * z_m * z_m * (far_m - near_m) / (far_m * near_m);
 }

@@ -9,7 +9,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// A wide floor with a few boxes on it, seen by a camera that looks along it; the sun stands `angle_rad` from the
+/// Makes a wide floor with a few boxes on it, seen by a camera that looks along it. The sun stands `angle_rad` from the
 /// camera's view, turned about the horizon.
 SceneSnapshot floor_scene(double angle_rad, float warp) {
     SceneSnapshot s;
@@ -44,13 +44,13 @@ SceneSnapshot floor_scene(double angle_rad, float warp) {
     return s;
 }
 
-/// But for turns of the map by quarters, which the unwarped fit makes as well.
+/// Folds a place in the map, so that turns by quarters count as none: the unwarped fit makes them as well.
 glm::dvec2 folded(const glm::dvec3& q) {
     const double x = std::abs(q.x - 0.5), y = std::abs(q.y - 0.5);
     return {std::min(x, y), std::max(x, y)};
 }
 
-/// Largest distance, in maps, by which any point that is seen lies elsewhere in b than in a.
+/// Returns the largest distance, in maps, by which any seen point lies elsewhere in b than in a.
 double farthest_move(const ShadowFrame& a, const ShadowFrame& b) {
     double worst = 0.0;
     for (const glm::dvec3& p : a.sets.receiver_points_ws) {

@@ -6,7 +6,7 @@
 #include "bench/glsl_on_cpu/glsl_types.h"
 #include "tests/unit/math/random_seed.h"
 
-/// The shader's own bias for warped maps, compiled in double and judged on planes: exact where it says so.
+/// The shader's own bias for warped maps, compiled in double and judged on planes: exact where the shader states so.
 namespace gnomon::bench::glsl {
 namespace {
 
@@ -67,7 +67,7 @@ struct Case {
         return depth({p.x, p.y, z});
     }
 
-    /// By how much the plane in the worst corner of the footprint lies above what is compared with it, in depth.
+    /// Returns how far the plane lies, in the worst corner of the footprint, above what is compared with it; in depth.
     double excess(double share_of_bias) const {
         Shader shader;
         const vec3 n_map(dot(normal, view.axis_u.xyz_()), dot(normal, view.axis_v.xyz_()), normal.z);

@@ -18,7 +18,7 @@ glm::dvec2 within(const Rectangle& r, const glm::dvec2& p) {
     return {glm::dot(p, r.axis_u), r.axis_u.x * p.y - r.axis_u.y * p.x};
 }
 
-/// Area of the box around the points, turned by an angle.
+/// Computes the area of the box around the points, turned by an angle.
 double turned_area(std::span<const glm::dvec2> points, double angle_rad) {
     Rectangle r;
     r.axis_u = {std::cos(angle_rad), std::sin(angle_rad)};

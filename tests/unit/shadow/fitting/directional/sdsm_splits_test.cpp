@@ -62,7 +62,7 @@ TEST(SampledDepths, NothingIsSpentBehindTheLastPixelButTheLastCascade) {
     EXPECT_DOUBLE_EQ(ends_of(pixels_at({2.0, 4.5}), 2)[1], 4.0 * std::exp2(0.25));
 }
 
-/// What sampled_splits() promises to make least, straight from the words.
+/// Computes the cost that sampled_splits() makes least, straight from its comment.
 double suffered(const SampledSplit& split, const CascadeSplitDistances& ends) {
     const bool perspective = split.consumer.projection == CameraProjection::perspective;
     const double half = perspective ? std::tan(0.5 * split.consumer.fov_y_rad) : split.consumer.half_height_m;
@@ -166,7 +166,7 @@ SceneSnapshot two_suns() {
     return scene;
 }
 
-/// Two suns' fits of so many cascades.
+/// Two suns' fits, each of `cascades` cascades.
 struct TwoFits {
     explicit TwoFits(std::uint32_t cascades) : fitted{std::vector<FitChoice>(2), {}, {}, {}, {}}, statuses(2) {
         for (FitChoice& light : fitted.lights) light.request.map.view_count = cascades;

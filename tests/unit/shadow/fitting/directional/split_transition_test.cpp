@@ -23,7 +23,8 @@ ConsumerItem camera() {
     return c;
 }
 
-/// How much of what a point at `distance_m` shows is the next cascade's: the shader's share, summed over borders.
+/// Computes how much of what a point at `distance_m` shows is the next cascade's: the shader's share, summed over
+/// borders.
 double passed(const CascadeSplitDistances& ends_m, double distance_m) {
     double sum = 0.0;
     for (std::uint32_t i = 1; i < kCount; ++i) {

@@ -27,7 +27,7 @@ InstanceItem instance(const math::Aabb& bounds_ws, bool casts) {
     return item;
 }
 
-/// A camera at (0, 2, z) that looks along -Z, and a light 5 m above the origin that looks down.
+/// Makes a camera at (0, 2, 12) that looks along -Z, and a light 5 m above the origin that looks down.
 SceneSnapshot stage(LightKind kind, double outer_cone_rad = 0.7) {
     SceneSnapshot s;
     ConsumerItem camera;
@@ -154,7 +154,7 @@ TEST(LocalFit, ACameraThatBobsAcrossAStepMovesNothing) {
     }
 }
 
-/// How often near changes while a thing goes between the floor and a metre before the light, five times in 300 frames.
+/// Counts how often near changes while a box moves up toward the light and down again, five times in 300 frames.
 int near_changes(LightKind kind, DepthFormat format) {
     SceneSnapshot s = floor_and_posts(kind);
     s.lights[0].tuning.maps.depth_format = format;
