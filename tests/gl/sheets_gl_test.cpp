@@ -28,7 +28,7 @@ glm::dvec3 end_of_reach(const LightItem& light, const glm::dvec3& at_ws_m, doubl
 }
 
 /// Factor by which more worlds than planned may be played. A few worlds may happen to leave nearly all places to rays.
-constexpr int kSizeHysteresis = 8;
+constexpr int kMostTries = 8;
 
 /// Counts of places. `places`: only what the maps show.
 struct Tally {
@@ -73,9 +73,10 @@ protected:
         const double nearest_m = std::max(1e-9, 1e-14 * glm::length(scene.offset_m));
         const auto truth = scene.ask(view.light, places, {.samples = 1, .nearest_m = nearest_m, .threads = 2});
         for (std::size_t i = 0; i < places.size(); ++i) {
-            tally.places += is_shown(view.views, places[i].at_ws_m) ? 1 : 0;
+            const std::size_t shown = is_shown(view.views, places[i].at_ws_m) ? 1 : 0;
+            tally.places += shown;
             if (found[i] == Verdict::uncertain) continue;
-            (found[i] == Verdict::lit ? tally.lit : tally.dark)++;
+            (found[i] == Verdict::lit ? tally.lit : tally.dark) += shown;
             if ((found[i] == Verdict::lit) == (truth[i] > 0.5f)) continue;
             if (++tally.wrong <= 5 && margins)
                 ADD_FAILURE() << "place " << i << " is certainly " << (found[i] == Verdict::lit ? "lit" : "dark")
@@ -102,7 +103,7 @@ TEST_P(Sheets, AreRightWhereTheyAreCertain) {
     const std::uint64_t seed = print_seed();
     Tally tally;
     const auto goes_on = [&](int world) {
-        return world < worlds() || (!tally.is_of_use() && world < kSizeHysteresis * worlds());
+        return world < worlds() || (!tally.is_of_use() && world < kMostTries * worlds());
     };
     for (int world = 0; goes_on(world) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
@@ -158,7 +159,7 @@ TEST_P(Sheets, AreRightBelowNeedles) {
     const std::uint64_t seed = print_seed();
     Tally tally;
     const auto is_of_use = [&] { return tally.lit + tally.dark > tally.places / 20; };
-    for (int world = 0; (world < 4 || (!is_of_use() && world < 4 * kSizeHysteresis)) && !HasFailure(); ++world) {
+    for (int world = 0; (world < 4 || (!is_of_use() && world < 4 * kMostTries)) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
         Random random(seed + static_cast<std::uint64_t>(world));
         QueryScene scene = test::needle_world(random);

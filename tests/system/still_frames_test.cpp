@@ -111,7 +111,7 @@ TEST_F(StillFrames, LookAtNoInstance) {
         scene.changed_instances.clear();
         list.clear();
         system.update(scene, gpu.value(), {}, list, report);
-    system.report(scene, {}, report);
+        system.report(scene, {}, report);
         system.commit(scene, true);
     };
     for (int i = 0; i < 120 && !report.still; ++i) update();
