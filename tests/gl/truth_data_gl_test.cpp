@@ -31,7 +31,7 @@ protected:
             if (verdict != test::kSeen) continue;
             bench::StageOptions options;
             options.scene = test::data_folder() / name;
-            options.size_px = {480, 270};
+            options.size_px = {640, 360};
             options.settings = settings;
             const bench::Accuracy accuracy = measure(options);
             for (const bench::LightAccuracy& light : accuracy.lights) judge(name, light);
