@@ -227,16 +227,14 @@ protected:
         return found;
     }
 
-    /// Returns how far the point is from where half_covered() changes, in metres (sun) or as a tangent. Negative: on
-    /// the caster's side.
+    /// Returns the distance to where half_covered() changes: metres (sun) or a tangent, negative at the caster's side.
     static double from_edge(LightKind kind, const glm::vec3& p) {
         const double x = static_cast<double>(p.x);
         if (kind == LightKind::directional) return x;
         return x / static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
     }
 
-    /// Source for rows that read one: the cone from half_covered()'s receivers to it is a few texels wide at the
-    /// casters.
+    /// Source for rows that read one: seen from half_covered()'s receivers it is a few texels wide at the casters.
     const LightItem kSource = [] {
         LightItem light;
         light.source_radius_m = 0.3f, light.sun_radius_rad = 0.05f;
