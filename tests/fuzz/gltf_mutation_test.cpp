@@ -15,7 +15,7 @@
 namespace gnomon::test {
 namespace {
 
-constexpr int kExecutions = kSanitized ? 1'000 : 20'000;  // under sanitizers fuzz_gltf_structure runs the same mutator
+constexpr int kExecutions = kSanitized ? 3'000 : 20'000;  // under sanitizers fuzz_gltf_structure runs the same mutator
 constexpr std::size_t kMostChoices = 40;
 
 std::vector<std::uint8_t> random_choices(std::mt19937_64& random) {
