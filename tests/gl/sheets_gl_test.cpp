@@ -27,8 +27,8 @@ glm::dvec3 end_of_reach(const LightItem& light, const glm::dvec3& at_ws_m, doubl
     return at_ws_m + reach * (sun ? light.rotation_ws[2] : light.position_ws_m - at_ws_m);
 }
 
-/// Factor by which more worlds than planned may be played. A few worlds may happen to leave nearly all places to rays.
-constexpr int kMostTries = 8;
+/// Most worlds that are played for each planned one. A few worlds may happen to leave nearly all places to rays.
+constexpr int kMostPerPlanned = 8;
 
 /// Counts of places. `places`: only what the maps show.
 struct Tally {
@@ -103,7 +103,7 @@ TEST_P(Sheets, AreRightWhereTheyAreCertain) {
     const std::uint64_t seed = print_seed();
     Tally tally;
     const auto goes_on = [&](int world) {
-        return world < worlds() || (!tally.is_of_use() && world < kMostTries * worlds());
+        return world < worlds() || (!tally.is_of_use() && world < kMostPerPlanned * worlds());
     };
     for (int world = 0; goes_on(world) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
@@ -159,7 +159,7 @@ TEST_P(Sheets, AreRightBelowNeedles) {
     const std::uint64_t seed = print_seed();
     Tally tally;
     const auto is_of_use = [&] { return tally.lit + tally.dark > tally.places / 20; };
-    for (int world = 0; (world < 4 || (!is_of_use() && world < 4 * kMostTries)) && !HasFailure(); ++world) {
+    for (int world = 0; (world < 4 || (!is_of_use() && world < 4 * kMostPerPlanned)) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
         Random random(seed + static_cast<std::uint64_t>(world));
         QueryScene scene = test::needle_world(random);

@@ -50,6 +50,13 @@ Query make_query(const ExactRay& ray, double t_min, double t_max) {
     return query;
 }
 
+Query query_of_occluders(const ExactRay& ray, double t_max, std::uint32_t start_triangle, ShadowLayers layers) {
+    Query query = make_query(ray, 0.0, t_max);
+    query.layers = layers;
+    query.start_triangle = start_triangle;
+    return query;
+}
+
 RTCRay to_embree(const ExactRay& ray, double t_max) {
     RTCRay r{};
     r.org_x = static_cast<float>(ray.origin.x);
@@ -193,9 +200,7 @@ std::uint32_t TracedWorld::occluder(const ExactRay& ray, double t_max, std::uint
                                     ShadowLayers layers) const {
     double t = 0.0;
     if (hint != kNoTriangle && blocks(ray, t_max, layers, start_triangle, hint, t)) return hint;
-    Query query = make_query(ray, 0.0, t_max);
-    query.layers = layers;
-    query.start_triangle = start_triangle;
+    Query query = query_of_occluders(ray, t_max, start_triangle, layers);
     RTCRay r = to_embree(ray, t_max);
     occlude(scene_, query.context, r);
     return query.best.triangle;
@@ -203,9 +208,7 @@ std::uint32_t TracedWorld::occluder(const ExactRay& ray, double t_max, std::uint
 
 std::uint32_t TracedWorld::farthest_occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle,
                                              ShadowLayers layers) const {
-    Query query = make_query(ray, 0.0, t_max);
-    query.layers = layers;
-    query.start_triangle = start_triangle;
+    Query query = query_of_occluders(ray, t_max, start_triangle, layers);
     query.farthest = true;
     RTCRay r = to_embree(ray, t_max);
     occlude(scene_, query.context, r);
