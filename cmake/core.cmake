@@ -48,6 +48,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/projection/spot_cube_transition.cpp
   systems/shadow/projection/sun_viewpoint.cpp
   systems/shadow/frame/instance_layers.cpp
+  systems/shadow/frame/receiver_caster_sets.cpp
   systems/shadow/request/accuracy_target.cpp
   systems/shadow/request/decide_requests.cpp
   systems/shadow/request/filter_choice.cpp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/workers.h"
 #include "engine/gl/device_gl45.h"
 #include "systems/frame_system.h"
 #include "systems/visibility/caster_trees.h"
@@ -11,10 +12,11 @@
 namespace gnomon {
 
 struct Frame::State {
-    State(std::unique_ptr<gl::Device> gl_device, std::unique_ptr<FrameSystem> frame_system,
-          const assets::MeshLibrary& library)
+    State(std::unique_ptr<gl::Device> gl_device, std::unique_ptr<Workers> threads,
+          std::unique_ptr<FrameSystem> frame_system, const assets::MeshLibrary& library)
         : device(std::move(gl_device)),
           info{device->info().name, device->info().max_texture_px},
+          workers(std::move(threads)),
           system(std::move(frame_system)),
           trees(library),
           queries(trees) {}
@@ -38,6 +40,7 @@ struct Frame::State {
 
     std::unique_ptr<gl::Device> device;
     FrameDevice info;
+    std::unique_ptr<Workers> workers;
     std::unique_ptr<FrameSystem> system;
     visibility::CasterTrees trees;
     visibility::LightQueries queries;
@@ -53,10 +56,12 @@ Result<std::unique_ptr<Frame>> Frame::create(const assets::MeshLibrary& library,
         sink = [message = options.message](gl::MessageSeverity, std::string_view text) { message(text); };
     auto device = gl::make_gl45_device(std::move(sink), {.keeps_state = true});
     if (!device) return device.error();
-    auto system = FrameSystem::create(*device.value(), library, options.history ? *options.history : shadow::History{});
+    auto workers = std::make_unique<Workers>(options.threads);
+    auto system = FrameSystem::create(*device.value(), library, options.history ? *options.history : shadow::History{},
+                                      workers.get());
     if (!system) return system.error();
-    return std::unique_ptr<Frame>(
-        new Frame(std::make_unique<State>(std::move(device).value(), std::move(system).value(), library)));
+    return std::unique_ptr<Frame>(new Frame(
+        std::make_unique<State>(std::move(device).value(), std::move(workers), std::move(system).value(), library)));
 }
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {

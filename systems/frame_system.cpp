@@ -22,18 +22,18 @@ constexpr std::uint32_t kSmoothSamples = 8;
 }  // namespace
 
 Result<std::unique_ptr<FrameSystem>> FrameSystem::create(gl::Device& device, const assets::MeshLibrary& library,
-                                                         const shadow::History& fit_history) {
+                                                         const shadow::History& fit_history, Jobs* jobs) {
     auto scene = GpuScene::create(device, library);
     if (!scene) return scene.error();
-    return std::unique_ptr<FrameSystem>(new FrameSystem(device, library, fit_history, std::move(scene).value()));
+    return std::unique_ptr<FrameSystem>(new FrameSystem(device, library, fit_history, jobs, std::move(scene).value()));
 }
 
 FrameSystem::FrameSystem(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history,
-                         GpuScene scene)
+                         Jobs* jobs, GpuScene scene)
     : device_(device),
       library_(library),
       gpu_scene_(std::move(scene)),
-      shadows_(std::make_unique<shadow::ShadowSystem>(device, fit_history)),
+      shadows_(std::make_unique<shadow::ShadowSystem>(device, fit_history, jobs)),
       lighting_(std::make_unique<lighting::LightingSystem>(device)),
       changes_(std::make_unique<picture::PictureChanges>()),
       samples_(std::make_unique<picture::PictureSamples>(device)),

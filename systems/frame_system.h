@@ -23,6 +23,8 @@
 
 namespace gnomon {
 
+class Jobs;
+
 namespace shadow {
 class ShadowSystem;
 struct ShadowFrame;
@@ -45,9 +47,10 @@ class FrameSystem {
 public:
     /// Creates a frame. `device` and `library` must outlive it. Between frames meshes may come to the library and go
     /// (MeshLibrary::add(), replace(), remove()). `fit_history`: of the frame to continue after a lost
-    /// context; pictures then continue bit for bit. Errors: "gpu.scene".
+    /// context; pictures then continue bit for bit. `jobs`: threads that share many lights, and outlive the frame;
+    /// null: the calling one does all. Errors: "gpu.scene".
     static Result<std::unique_ptr<FrameSystem>> create(gl::Device& device, const assets::MeshLibrary& library,
-                                                       const shadow::History& fit_history = {});
+                                                       const shadow::History& fit_history = {}, Jobs* jobs = nullptr);
     ~FrameSystem();
 
     /// Runs one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the world's
@@ -83,7 +86,7 @@ public:
     bool read_tint(std::uint32_t light, std::vector<glm::vec4>& values);
 
 private:
-    FrameSystem(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history,
+    FrameSystem(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history, Jobs* jobs,
                 GpuScene scene);
     std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);

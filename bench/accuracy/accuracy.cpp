@@ -85,10 +85,10 @@ void judge_edges(const TracedPicture& picture, const oracle::CasterPieces& piece
         return bounds.at(index, point, normal, options.telling);
     };
     edges.exceptions = exceptions(texel_at);
-    const auto promised_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
-        return bounds.promised(index, point, normal, options.wished);
+    const auto target_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+        return bounds.of_target(index, point, normal, options.target_factor);
     };
-    if (light.report.keeps_max_error) edges.contract = exceptions(promised_at);
+    if (light.report.keeps_max_error) edges.contract = exceptions(target_at);
     const auto resolving_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
         return bounds.resolving(index, point, normal, options.telling);
     };
@@ -122,7 +122,7 @@ void judge_area(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits
     area.metrics = oracle::compare_area(area.truth, accuracy.measured, accuracy.truth.ambiguous);
 }
 
-PromisedErrors promised_errors(const LightAccuracy& light) {
+JudgedErrors judged_errors(const LightAccuracy& light) {
     const oracle::Metrics& m = light.metrics;
     const oracle::FarErrors& far = light.far;
     return {m.fraction(m.wrong), m.fraction(m.leak), m.fraction(m.acne),
@@ -161,7 +161,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         if (pieces) judge_edges(picture, *pieces, bounds, options, light);
         light.far = errors_beyond_texels(picture, bounds, light.measured);
         if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
-            light.promised = promised_errors(light);
+            light.judged = judged_errors(light);
     }
 }
 

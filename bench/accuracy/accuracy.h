@@ -49,8 +49,8 @@ struct LightAccuracy {
     oracle::LightTruth truth;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
     oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
-    std::optional<PromisedErrors>
-        promised;  // errors that defaults are judged by; none if the filter softens by the source's size
+    std::optional<JudgedErrors>
+        judged;  // errors that defaults are judged by; none if the filter softens by the source's size
     std::optional<EdgeAccuracy> edges;  // empty: AccuracyOptions::with_edges is false
     std::optional<SoftAccuracy> soft;   // accuracy about a source with a size; empty: the light has none
     std::optional<AreaAccuracy> area;   // empty: AccuracyOptions::area_side is 0
@@ -77,7 +77,7 @@ struct AccuracyOptions {
         1;  // number of frames, each with noise of its own (FrameSettings::noise_frame); their mean is judged
     double telling = 1.0;            // factor on predicted texels, see EdgeBounds::at()
     double stating = 1.0;  // factor on the stated width of what is resolved; below 1 shows how a broken one looks
-    double wished = 1.0;   // factor on max_error_px, see EdgeBounds::promised()
+    double target_factor = 1.0;  // factor on max_error_px, see EdgeBounds::of_target()
 };
 
 /// Runs frames of the scene, reads each light's visibility and compares it with ray-traced truth about the very

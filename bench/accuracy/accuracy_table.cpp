@@ -143,7 +143,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
         if (const std::string broken = broken_words(light); !broken.empty())
             text += light.report.name + ": NOT AS STATED: " + broken + ".\n";
     for (const LightAccuracy& light : accuracy.lights)
-        if (const std::string above = light.promised ? promise_words(*light.promised) : ""; !above.empty())
+        if (const std::string above = light.judged ? missed_limits(*light.judged) : ""; !above.empty())
             text += light.report.name + ": above what defaults are to keep: " + above +
                     ". What reaching it takes: --sweep full.\n";
     for (const LightAccuracy& light : accuracy.lights)

@@ -19,7 +19,7 @@ std::string near_words(double errors, const std::optional<double>& far, const st
 
 }  // namespace
 
-std::string promise_words(const PromisedErrors& errors) {
+std::string missed_limits(const JudgedErrors& errors) {
     std::string text;
     const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
     // Leak and acne begin farther from edges than that.

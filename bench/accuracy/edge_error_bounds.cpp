@@ -152,20 +152,20 @@ oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_r
     return texel;
 }
 
-oracle::TexelThere EdgeBounds::promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
-                                        double wished) const {
-    return within(light, point_rel_m, normal, shadow::target_error_px(scene_.lights[light].shadow), wished);
+oracle::TexelThere EdgeBounds::of_target(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                         double target_factor) const {
+    return within(light, point_rel_m, normal, shadow::target_error_px(scene_.lights[light].shadow), target_factor);
 }
 
 oracle::TexelThere EdgeBounds::within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
-                                      double error_px, double wished) const {
+                                      double error_px, double target_factor) const {
     const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);
     if (!view) return lit();
     oracle::TexelThere texel = texel_there(*view, fitted_.lights[view->light].request, p_ws, normal, edge_texel(*view));
-    texel.u_m *= wished;
-    texel.v_m *= wished;
-    texel.error_px = shadow::allowed_error_px(wished * error_px, glm::dot(to_light(*view, p_ws), normal));
+    texel.u_m *= target_factor;
+    texel.v_m *= target_factor;
+    texel.error_px = shadow::allowed_error_px(target_factor * error_px, glm::dot(to_light(*view, p_ws), normal));
     return texel;
 }
 

@@ -22,14 +22,14 @@ public:
                           double telling = 1.0) const;
 
     /// Returns the texel that may move an edge there, and the error that the light's target allows
-    /// (systems/shadow/request/accuracy_target.h). `wished`: factor on both; other than 1 it shows how a missed target
-    /// looks.
-    oracle::TexelThere promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
-                                double wished) const;
+    /// (systems/shadow/request/accuracy_target.h). `target_factor`: factor on both; other than 1 it shows how a missed
+    /// target looks.
+    oracle::TexelThere of_target(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                 double target_factor) const;
 
     /// Returns the same for an allowed error of `error_px` beside the picture's own pixel, whatever the light's target.
     oracle::TexelThere within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
-                              double error_px, double wished = 1.0) const;
+                              double error_px, double target_factor = 1.0) const;
 
     /// Returns the texel that may move an edge there; no error is allowed. `telling`: as at().
     oracle::TexelThere resolving(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,

@@ -18,15 +18,15 @@ double share(std::size_t part, std::size_t whole) {
 class LightAuditor {
 public:
     LightAuditor(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& traced,
-                 const SceneSnapshot& asked, const std::vector<std::uint8_t>& other_triangle,
+                 const SceneSnapshot& queried, const std::vector<std::uint8_t>& other_triangle,
                  visibility::CasterTrees& trees)
         : tracer_(tracer),
           hits_(hits),
           traced_(traced),
-          asked_(asked),
+          queried_(queried),
           other_(other_triangle),
           queries_(trees),
-          surfaces_(asked, trees) {}
+          surfaces_(queried, trees) {}
 
     AuditedLight audit(const LightItem& of_scene) {
         LightItem light = of_scene;
@@ -64,11 +64,11 @@ private:
         for (const std::uint32_t i : pixels)
             places.push_back({surfaces_.on_surface(tracer_.source_of(hits_.triangle[i]), point_ws_m(i)), 0.0});
         std::vector<float> answers(places.size());
-        queries_.ask(asked_, light, places, {.threads = std::max(std::thread::hardware_concurrency(), 1u)}, answers);
+        queries_.ask(queried_, light, places, {.threads = std::max(std::thread::hardware_concurrency(), 1u)}, answers);
         return answers;
     }
 
-    ShadowDisagreement described(const LightItem& light, std::uint32_t pixel, bool asked_lit) const {
+    ShadowDisagreement described(const LightItem& light, std::uint32_t pixel, bool queried_lit) const {
         const std::uint32_t triangle = hits_.triangle[pixel];
         const std::uint32_t occluder = tracer_.blocker(hits_.position_rel_m[pixel], triangle, light, 0.0);
         return {.at_px = at_px(pixel),
@@ -76,7 +76,7 @@ private:
                 .surface = tracer_.source_of(triangle),
                 .occluder = tracer_.source_of(occluder),
                 .traced_lit = occluder == oracle::kNoTriangle,
-                .asked_lit = asked_lit};
+                .queried_lit = queried_lit};
     }
 
     glm::uvec2 at_px(std::uint32_t pixel) const { return {pixel % hits_.size_px.x, pixel / hits_.size_px.x}; }
@@ -86,10 +86,10 @@ private:
 
     const oracle::ReferenceTracer& tracer_;
     const oracle::PrimaryHits& hits_;
-    const SceneSnapshot &traced_, &asked_;
+    const SceneSnapshot &traced_, &queried_;
     const std::vector<std::uint8_t>& other_;
     visibility::LightQueries queries_;
-    AskedSurfaces surfaces_;
+    QueriedSurfaces surfaces_;
 };
 
 /// Fills in what the two see; returns a flag per pixel in which that is not the same.

@@ -24,7 +24,7 @@ struct ShadowDisagreement {
     glm::dvec3 point_ws_m{0.0};
     oracle::PlacedTriangle surface;   // what the pixel shows
     oracle::PlacedTriangle occluder;  // caster that the tracer found in the way, if any
-    bool traced_lit = false, asked_lit = false;
+    bool traced_lit = false, queried_lit = false;
 };
 
 struct AuditedLight {

@@ -23,7 +23,8 @@ const char* verdict(double share, double most) { return share <= most ? "" : "  
 std::string line(const Audit& audit, const AuditedLight& light, const ShadowDisagreement& at) {
     return formatted("  %s, %s, pixel %u %u, at %.9g %.9g %.9g m, %s: traced %s (%s), asked %s\n", audit.scene.c_str(),
                      light.name.c_str(), at.at_px.x, at.at_px.y, at.point_ws_m.x, at.point_ws_m.y, at.point_ws_m.z,
-                     words(at.surface).c_str(), words(at.traced_lit), words(at.occluder).c_str(), words(at.asked_lit));
+                     words(at.surface).c_str(), words(at.traced_lit), words(at.occluder).c_str(),
+                     words(at.queried_lit));
 }
 
 std::size_t in_one_plane(const Audit& audit) {
@@ -60,7 +61,7 @@ Json to_json(const AuditedLight& light) {
                                  {"surface", to_json(at.surface)},
                                  {"occluder", to_json(at.occluder)},
                                  {"traced", words(at.traced_lit)},
-                                 {"asked", words(at.asked_lit)}});
+                                 {"asked", words(at.queried_lit)}});
     return {{"name", light.name},
             {"kind", shadow::light_kind_row(light.kind).name},
             {"compared_px", light.compared_px},

@@ -32,7 +32,7 @@ bool TrueSurfaces::in_one_plane(const PlacedTriangle& a, const PlacedTriangle& b
     });
 }
 
-const std::vector<std::uint32_t>& AskedSurfaces::slots_of(std::uint32_t mesh) {
+const std::vector<std::uint32_t>& QueriedSurfaces::slots_of(std::uint32_t mesh) {
     const auto [found, is_new] = slots_.try_emplace(mesh);
     if (!is_new) return found->second;
     const std::span<const rays::BvhTriangle> triangles = trees_.tree(mesh)->triangles();
@@ -44,15 +44,15 @@ const std::vector<std::uint32_t>& AskedSurfaces::slots_of(std::uint32_t mesh) {
     return found->second;
 }
 
-glm::dvec3 AskedSurfaces::on_surface(const PlacedTriangle& triangle, const glm::dvec3& point_ws_m) {
+glm::dvec3 QueriedSurfaces::on_surface(const PlacedTriangle& triangle, const glm::dvec3& point_ws_m) {
     const InstanceItem& item = scene_.instances[triangle.instance];
     if (!pose_of(scene_, item.mesh) || !trees_.tree(item.mesh)) return point_ws_m;
     const std::vector<std::uint32_t>& slots = slots_of(item.mesh);
     if (triangle.triangle >= slots.size() || slots[triangle.triangle] == oracle::kNoTriangle) return point_ws_m;
-    const rays::BvhTriangle& asked = trees_.tree(item.mesh)->triangles()[slots[triangle.triangle]];
+    const rays::BvhTriangle& hit = trees_.tree(item.mesh)->triangles()[slots[triangle.triangle]];
     const auto corner = [&](const glm::vec3& p) { return item.basis * glm::dvec3(p) + item.translation_ws_m; };
-    const glm::dvec3 a = corner(asked.a);
-    const glm::dvec3 normal = glm::normalize(glm::cross(corner(asked.b) - a, corner(asked.c) - a));
+    const glm::dvec3 a = corner(hit.a);
+    const glm::dvec3 normal = glm::normalize(glm::cross(corner(hit.b) - a, corner(hit.c) - a));
     const glm::dvec3 on_plane = point_ws_m - normal * glm::dot(normal, point_ws_m - a);
     return std::isfinite(glm::dot(on_plane, on_plane)) ? on_plane : point_ws_m;
 }

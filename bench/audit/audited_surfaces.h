@@ -28,10 +28,10 @@ private:
 
 /// Triangles as visibility queries have them: the corners of a bending mesh are rounded to float, once. A place on the
 /// tracer's surface may lie below that triangle by the rounding, and would be in its shadow.
-class AskedSurfaces {
+class QueriedSurfaces {
 public:
     /// Refers to scene and trees, which must outlive this. The trees must be up to date with the scene.
-    AskedSurfaces(const SceneSnapshot& scene, const visibility::CasterTrees& trees) : scene_(scene), trees_(trees) {}
+    QueriedSurfaces(const SceneSnapshot& scene, const visibility::CasterTrees& trees) : scene_(scene), trees_(trees) {}
 
     /// Moves a point onto the plane that queries have for that triangle. For meshes at rest it stays.
     glm::dvec3 on_surface(const oracle::PlacedTriangle& triangle, const glm::dvec3& point_ws_m);

@@ -60,7 +60,7 @@ shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages
             .frame_points_ws = sets.receiver_points_ws,
             .reach_texel = request.map.filtering.widest_texel,
             .sampled_depths = stages.sampled_depths,
-            .scratch = stages.storage.fits,
+            .scratch = stages.storage.scratch.front().fits,
             .held = held,
             .next = next};
 }

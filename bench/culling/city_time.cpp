@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/common/median_range.h"
+#include "engine/core/workers.h"
 #include "engine/gl/device_recording.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "systems/extract/extract.h"
@@ -27,10 +28,11 @@ constexpr std::array kStages = {"request", "culling", "fitting", "budget", "maps
 
 class CityWorld {
 public:
-    explicit CityWorld(assets::SceneData data) : scene_(game::spawn_scene(std::move(data), world_, library_)) {
+    CityWorld(assets::SceneData data, std::size_t threads)
+        : workers_(threads), scene_(game::spawn_scene(std::move(data), world_, library_)) {
         auto gpu = GpuScene::create(device_, library_);
         gpu_ = std::make_unique<GpuScene>(std::move(gpu).value());
-        shadows_ = std::make_unique<shadow::ShadowSystem>(device_);
+        shadows_ = std::make_unique<shadow::ShadowSystem>(device_, shadow::History{}, &workers_);
         shadows_->watch_stages([this](std::string_view stage, const shadow::ShadowFrame&) {
             const auto now = std::chrono::steady_clock::now();
             us_[std::string(stage)].push_back(std::chrono::duration<double, std::micro>(now - last_).count());
@@ -71,6 +73,7 @@ private:
         return report_.shadow_cpu_us;
     }
 
+    Workers workers_;
     gl::RecordingDevice device_;
     assets::MeshLibrary library_;
     ecs::Registry world_;
@@ -90,20 +93,24 @@ private:
 }  // namespace
 
 std::string city_time_table() {
-    auto data = game::load_scene(game::kCityScene);
-    if (!data) return {};
-    CityWorld world(std::move(data).value());
-    std::string table = "| camera |", rule = "|---|";
+    std::string table = "| camera | threads |", rule = "|---|---|";
     for (const char* stage : kStages) table += std::string(" ") + stage + " |", rule += "---|";
     table += " all stages |\n" + rule + "---|\n";
-    for (const char* camera : {"street", "drive"}) {
-        table += std::string("| ") + camera + " |";
-        for (const double ms : world.run(camera)) {
-            char cell[32];
-            std::snprintf(cell, sizeof cell, " %.2f ms |", ms);
-            table += cell;
+    const std::size_t all = Workers(0).threads();
+    for (const std::size_t threads : {std::size_t{1}, all}) {
+        auto data = game::load_scene(game::kCityScene);
+        if (!data) return {};
+        CityWorld world(std::move(data).value(), threads);
+        for (const char* camera : {"street", "drive"}) {
+            table += std::string("| ") + camera + " | " + std::to_string(threads) + " |";
+            for (const double ms : world.run(camera)) {
+                char cell[32];
+                std::snprintf(cell, sizeof cell, " %.2f ms |", ms);
+                table += cell;
+            }
+            table += "\n";
         }
-        table += "\n";
+        if (all == 1) break;
     }
     return table;
 }

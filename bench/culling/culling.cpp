@@ -10,7 +10,9 @@
 #include "bench/culling/city_time.h"
 #include "bench/culling/fit_time.h"
 #include "bench/culling/list_time.h"
+#include "bench/culling/many_views.h"
 #include "bench/culling/update_time.h"
+#include "engine/core/workers.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/view_casters.h"
@@ -55,7 +57,7 @@ void view_casters(benchmark::State& state) {
     for (auto _ : state) {
         fitted.casters.clear();
         for (shadow::ShadowView& view : fitted.views)
-            shadow::select_view_casters(scene, inputs, view, stages.storage.sets, fitted.casters);
+            shadow::select_view_casters(scene, inputs, view, stages.storage.scratch.front().sets, fitted.casters);
     }
     note(state, stages);
     state.counters["views"] = static_cast<double>(fitted.views.size());
@@ -131,6 +133,16 @@ void add(const char* name, void (*run)(benchmark::State&)) {
     added->Unit(benchmark::kMicrosecond)->Complexity();
 }
 
+void add_per_threads(const ViewsBenchmark& views) {
+    const auto all = static_cast<std::int64_t>(Workers(0).threads());
+    benchmark::internal::Benchmark* added = benchmark::RegisterBenchmark(views.name, views.run);
+    for (const std::int64_t n : kBoxes) {
+        added->Args({n, 1});
+        if (all > 1) added->Args({n, all});
+    }
+    added->Unit(benchmark::kMicrosecond)->UseRealTime();
+}
+
 }  // namespace
 
 void run_culling(const std::string& filter) {
@@ -141,6 +153,8 @@ void run_culling(const std::string& filter) {
     add("tree_build", tree_build);
     add("tree_refit_all", tree_refit_all);
     add("tree_refit_100", tree_refit_100);
+    add("read_boxes", read_boxes);
+    for (const ViewsBenchmark& views : views_benchmarks()) add_per_threads(views);
     for (const ListBenchmark& list : list_benchmarks()) add(list.name, list.run);
     std::string program = "gnomon_bench", wanted = "--benchmark_filter=" + filter;
     char* arguments[] = {program.data(), wanted.data(), nullptr};

@@ -16,7 +16,7 @@ std::string_view kind_name(LightKind kind) { return shadow::light_kind_row(kind)
 /// Names the bounds of the defaults that the figures exceed. Empty: none, or the filter softens by the source's size.
 std::string above_bounds(const RowFigures& figures) {
     if (!figures.wrong) return {};
-    return promise_words({*figures.wrong, figures.leak.value_or(0.0), figures.acne.value_or(0.0),
+    return missed_limits({*figures.wrong, figures.leak.value_or(0.0), figures.acne.value_or(0.0),
                           figures.false_shadow_far, figures.false_light_far});
 }
 

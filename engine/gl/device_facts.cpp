@@ -9,13 +9,13 @@ namespace gnomon::gl {
 namespace {
 
 /// Limit that glGetInteger64v reports.
-struct AskedLimit {
+struct QueriedLimit {
     GLenum name;
     DeviceLimit limit;
 };
 
 // Minimum that OpenGL 4.5 guarantees, or less where Gnomon needs less.
-constexpr AskedLimit kAsked[] = {
+constexpr QueriedLimit kQueried[] = {
     {GL_MAX_TEXTURE_SIZE, {"MAX_TEXTURE_SIZE", 0, 16384}},
     {GL_MAX_CUBE_MAP_TEXTURE_SIZE, {"MAX_CUBE_MAP_TEXTURE_SIZE", 0, 16384}},
     {GL_MAX_ARRAY_TEXTURE_LAYERS, {"MAX_ARRAY_TEXTURE_LAYERS", 0, 2048}},
@@ -73,11 +73,11 @@ DeviceFacts read_device_facts() {
     GLint strategy = 0;
     glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
     facts.robust = strategy == GL_LOSE_CONTEXT_ON_RESET;
-    for (AskedLimit asked : kAsked) {
+    for (QueriedLimit queried : kQueried) {
         GLint64 value = 0;
-        glGetInteger64v(asked.name, &value);
-        asked.limit.value = value;
-        facts.limits.push_back(asked.limit);
+        glGetInteger64v(queried.name, &value);
+        queried.limit.value = value;
+        facts.limits.push_back(queried.limit);
     }
     add_odd_limits(facts.limits);
     facts.extensions = read_extensions();

@@ -139,10 +139,10 @@ public:
         return keep<TargetHandle>(objects_.targets, make_target(desc, objects_));
     }
 
-    template <class Ask>
-    auto asked(Ask&& ask) const {
+    template <class Query>
+    auto within_call(Query&& query) const {
         const GlCall call = enter();
-        return ask();
+        return query();
     }
     bool draw_into(TargetHandle handle, const Rect& viewport, const std::function<void()>& draw) const {
         const GlTarget* target = find_object(objects_.targets, handle.id);
@@ -312,7 +312,7 @@ Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, const Gl45Opt
 
 /// Returns of(device) of an OpenGL device; an empty value of any other.
 template <class Of>
-static auto asked_of(const Device& device, Of&& of) {
+static auto of_gl45(const Device& device, Of&& of) {
     const auto* gl45 = dynamic_cast<const Gl45Device*>(&device);
     return gl45 == nullptr ? decltype(of(*gl45)){} : of(*gl45);
 }
@@ -322,24 +322,25 @@ bool is_current(Device& gl45_device) {
     return device != nullptr && device->is_current();
 }
 unsigned gl_name(const Device& gl45_device, TextureHandle texture) {
-    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(texture); });
+    return of_gl45(gl45_device, [&](const Gl45Device& device) { return device.name(texture); });
 }
 unsigned gl_name(const Device& gl45_device, SamplerHandle sampler) {
-    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(sampler); });
+    return of_gl45(gl45_device, [&](const Gl45Device& device) { return device.name(sampler); });
 }
 unsigned gl_name(const Device& gl45_device, BufferHandle buffer) {
-    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(buffer); });
+    return of_gl45(gl45_device, [&](const Gl45Device& device) { return device.name(buffer); });
 }
 unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer) {
-    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.texels_name(buffer); });
+    return of_gl45(gl45_device, [&](const Gl45Device& device) { return device.texels_name(buffer); });
 }
 std::optional<EngineTexture> describe_texture(const Device& gl45_device, unsigned name) {
-    return asked_of(gl45_device,
-                    [&](const Gl45Device& device) { return device.asked([&] { return described(name); }); });
+    return of_gl45(gl45_device,
+                   [&](const Gl45Device& device) { return device.within_call([&] { return described(name); }); });
 }
 std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, unsigned name) {
-    return asked_of(gl45_device,
-                    [&](const Gl45Device& device) { return device.asked([&] { return places_of_samples(name); }); });
+    return of_gl45(gl45_device, [&](const Gl45Device& device) {
+        return device.within_call([&] { return places_of_samples(name); });
+    });
 }
 void bind_for_engine(const Device& gl45_device, std::span<const EngineBinding> bindings) {
     for (const EngineBinding& b : bindings) {
@@ -369,8 +370,8 @@ TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDe
     return device == nullptr ? TextureHandle{} : device->import(name, desc);
 }
 void buffer_sizes(const Device& gl45_device, std::span<const unsigned> names, std::span<std::uint64_t> sizes) {
-    const auto ask = [&] { return std::transform(names.begin(), names.end(), sizes.begin(), size_of_buffer); };
-    if (!names.empty()) asked_of(gl45_device, [&](const Gl45Device& device) { return device.asked(ask); });
+    const auto sizes_of = [&] { return std::transform(names.begin(), names.end(), sizes.begin(), size_of_buffer); };
+    if (!names.empty()) of_gl45(gl45_device, [&](const Gl45Device& device) { return device.within_call(sizes_of); });
 }
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc) {
     auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
@@ -378,7 +379,7 @@ BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc&
 }
 
 std::size_t live_objects(const Device& gl45_device) {
-    return asked_of(gl45_device, [](const Gl45Device& device) { return device.live_objects(); });
+    return of_gl45(gl45_device, [](const Gl45Device& device) { return device.live_objects(); });
 }
 
 }  // namespace gnomon::gl

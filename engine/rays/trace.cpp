@@ -143,7 +143,7 @@ Verdict judge(const SegmentPacket& segments, const BvhTriangle& triangle) {
 }
 
 Lanes blocked_rays(const MeshBvh& tree, SegmentPacket& segments, ExactTest& exact) {
-    const Lanes asked = segments.lanes;
+    const Lanes wanted = segments.lanes;
     walk(tree, segments, [&](const BvhTriangle& triangle) {
         Verdict verdict = judge(segments, triangle);
         if (triangle.mask != kOpaque) verdict = {0, verdict.hit | verdict.unsure};
@@ -154,7 +154,7 @@ Lanes blocked_rays(const MeshBvh& tree, SegmentPacket& segments, ExactTest& exac
         }
         segments.drop(verdict.hit);
     });
-    return segments.rays_of(asked & ~segments.lanes);
+    return segments.rays_of(wanted & ~segments.lanes);
 }
 
 void nearest_hits(const MeshBvh& tree, SegmentPacket& segments, ExactTest& exact) {

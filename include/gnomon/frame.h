@@ -157,7 +157,7 @@ struct LightReport {
     bool keeps_max_error = false;            // meets LightShadow::max_error_px, apart from the picture's own pixel
     ResolvedWidth resolved;                  // how wide a caster must be to be resolved, over its views
     LightCounts counts;                      // maps and work
-    double cpu_us = 0.0;                     // time of the shadow stages for this light alone
+    double cpu_us = 0.0;           // time of the shadow stages for this light alone; those of lights on threads overlap
     std::optional<double> gpu_us;  // shadow and lighting pass, from the newest measured frame; empty: not measured
     Why why;                       // numbers behind its state
     KeptReport kept;               // visibility per pixel kept from earlier frames
@@ -289,6 +289,7 @@ struct FrameOptions {
     std::function<void(std::string_view)> message = {};
     /// Memory of a frame that lost its context: pictures continue bit for bit. Null: a new beginning.
     std::shared_ptr<const shadow::History> history = nullptr;
+    std::uint32_t threads = 0;  // as ShadowsOptions::threads (gnomon/shadows.h)
 };
 
 /// Device behind a frame.

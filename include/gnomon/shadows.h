@@ -279,6 +279,10 @@ struct ShadowsOptions {
     /// Receives warnings and errors of the GL implementation about Gnomon's calls; advice and notes are left out.
     /// Empty: none.
     std::function<void(std::string_view)> message = {};
+    /// Number of threads that search for casters and fit maps, up to 8, the calling one among them. The others start
+    /// with the first frame of 16 lights or more, and sleep between calls. They call neither you nor OpenGL. 1: the
+    /// calling thread does all. Default: 0, as many as the processor runs at once.
+    std::uint32_t threads = 0;
 };
 
 /// Owner of maps, programs and copies of meshes in one OpenGL context. render() is called once per frame; all else at

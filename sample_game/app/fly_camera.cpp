@@ -21,7 +21,7 @@ bool held(const Input& input, Key key) {
 }
 
 /// Returns the direction that the keys stand for: right, up and back, each -1, 0 or 1.
-glm::dvec3 wished_step(const Input& input) {
+glm::dvec3 step_of(const Input& input) {
     const auto axis = [&](Key minus, Key plus) {
         return (held(input, plus) ? 1.0 : 0.0) - (held(input, minus) ? 1.0 : 0.0);
     };
@@ -53,7 +53,7 @@ bool FlyCamera::take_over(ecs::Registry& registry) {
 }
 
 void FlyCamera::update(const Input& input, bool look, double dt_s, ecs::Registry& registry) {
-    const glm::dvec3 step = wished_step(input);
+    const glm::dvec3 step = step_of(input);
     const bool turns = look && (input.mouse_dx != 0.0 || input.mouse_dy != 0.0);
     if (step == glm::dvec3(0.0) && !turns) return;
     if (entity_ == ecs::kNull && !take_over(registry)) return;

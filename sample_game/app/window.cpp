@@ -133,9 +133,9 @@ private:
         } else if (line_.demo) {
             world_.game->advance_demo(frame_ > 0 ? dt_s : line_.time_s.value_or(0.0));
         } else if (frame_ > 0) {
-            GameInput wish = together(to_game_input(input, look), gamepad_input(pads_, input.gamepads, dt_s));
-            wish.toggle_pause = wish.toggle_pause != stop_or_go;
-            world_.game->advance(dt_s, wish);
+            GameInput both = together(to_game_input(input, look), gamepad_input(pads_, input.gamepads, dt_s));
+            both.toggle_pause = both.toggle_pause != stop_or_go;
+            world_.game->advance(dt_s, both);
         }
         world_.game->apply(world_.registry);
     }

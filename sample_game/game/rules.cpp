@@ -109,9 +109,9 @@ void Game::step(const GameInput& input) {
 void Game::walk(const GameInput& input) {
     state_.yaw_rad = std::remainder(state_.yaw_rad + input.yaw_rad, 2.0 * glm::pi<double>());
     state_.pitch_rad = std::clamp(state_.pitch_rad + input.pitch_rad, -kMaxPitch_rad, kMaxPitch_rad);
-    glm::dvec3 wish = heading(state_.yaw_rad) * input.forward + sideways(state_.yaw_rad) * input.right;
-    if (const double length = glm::length(wish); length > 1.0) wish /= length;
-    const glm::dvec3 to = state_.feet_m + wish * ((input.run ? kRun_m_per_s : kWalk_m_per_s) * kStep_s);
+    glm::dvec3 stride = heading(state_.yaw_rad) * input.forward + sideways(state_.yaw_rad) * input.right;
+    if (const double length = glm::length(stride); length > 1.0) stride /= length;
+    const glm::dvec3 to = state_.feet_m + stride * ((input.run ? kRun_m_per_s : kWalk_m_per_s) * kStep_s);
     const double step_top = state_.feet_m.y + kStepLimit_m;
     const glm::dvec2 free =
         pushed_out({to.x, to.z}, kRadius_m, step_top, state_.feet_m.y + kHeight_m, level_.solids, poses_);
@@ -156,11 +156,11 @@ glm::dvec3 Game::camera_m() const {
     const glm::dvec3 eye = state_.feet_m + glm::dvec3(0.0, kEye_m, 0.0);
     const glm::dvec3 look =
         heading(state_.yaw_rad) * std::cos(state_.pitch_rad) + glm::dvec3(0.0, std::sin(state_.pitch_rad), 0.0);
-    const glm::dvec3 wish = eye + sideways(state_.yaw_rad) * kShoulder_m - look * kBehind_m;
-    const double way = glm::length(wish - eye);
-    const double free = free_way(eye, wish, level_.solids, poses_);
+    const glm::dvec3 behind = eye + sideways(state_.yaw_rad) * kShoulder_m - look * kBehind_m;
+    const double way = glm::length(behind - eye);
+    const double free = free_way(eye, behind, level_.solids, poses_);
     const double kept = free < 1.0 ? std::max(free - kOffWall_m / way, 0.0) : 1.0;
-    glm::dvec3 at = eye + (wish - eye) * kept;
+    glm::dvec3 at = eye + (behind - eye) * kept;
     at.y = std::max(at.y, level_.start_m.y + kOffWall_m);
     return at;
 }

@@ -39,7 +39,7 @@ struct Fits::State {
     shadow::RayFallbacks fallbacks;
     std::vector<shadow::LightStatus> statuses;
     std::vector<shadow::ShadowRequest> requests;
-    shadow::FitStorage storage;
+    shadow::StageStorage storage;
     shadow::ReceiverCasterSets sets;
     shadow::FittedViews fitted;
     shadow::History next;
@@ -63,7 +63,7 @@ void Fits::State::run(const Scene& scene, const Settings& settings, shadow::Hist
     device.max_cube_px = std::max(settings.max_cube_px, kLeastDevice_px);
     shadow::decide_requests(snapshot, {device, history, true, {}}, fallbacks, requests);
     for (std::size_t i = 0; i < requests.size(); ++i) statuses[i].skip(requests[i].skip);
-    shadow::select_sets(snapshot, {requests, {}}, storage.sets, sets, accounts);
+    shadow::select_sets(snapshot, {requests, {}}, storage, sets, accounts);
     shadow::fit_views(snapshot, {requests, sets, {}, no_depths, history, {}}, storage, fitted, next, accounts);
     std::swap(history, next);
     write_results({input, sets, fitted, statuses}, settings.convention, lights, views);

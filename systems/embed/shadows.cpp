@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/workers.h"
 #include "engine/core/zone.h"
 #include "engine/gl/device_gl45.h"
 #include "systems/after_submission.h"
@@ -59,7 +60,8 @@ struct Shadows::State {
           programs(*device),
           gpu(std::move(on_device)),
           engine_meshes(*device),
-          groups(*device, options.lookup.has_value()),
+          workers(options.threads),
+          groups(*device, &workers, options.lookup.has_value()),
           trees(store.library()),
           queries(trees) {
         set_timing();
@@ -93,6 +95,7 @@ struct Shadows::State {
     lighting::LightPrograms programs;
     GpuScene gpu;
     embed::EngineMeshes engine_meshes;
+    Workers workers;
     embed::ViewGroups groups;
     std::vector<std::unique_ptr<ViewState>> views;
     std::vector<ConsumerItem> consumers;

@@ -12,7 +12,7 @@ ViewGroup& ViewGroups::group_of(const ViewLayers& wanted) {
         return of_group == layers || (!group->consumers.empty() && in_use_.are_alike(of_group, layers));
     });
     if (at != groups_.end()) return **at;
-    groups_.push_back(std::make_unique<ViewGroup>(device_, layers));
+    groups_.push_back(std::make_unique<ViewGroup>(device_, jobs_, layers));
     if (shares_layers_) groups_.back()->shadows.share_layers();
     return *groups_.back();
 }

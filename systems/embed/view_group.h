@@ -17,7 +17,7 @@ namespace gnomon::embed {
 
 /// Views that see the same casters and receivers: they share maps, and nothing with other groups.
 struct ViewGroup {
-    ViewGroup(gl::Device& device, const ViewLayers& layers) : shadows(device), layered(layers) {}
+    ViewGroup(gl::Device& device, Jobs* jobs, const ViewLayers& layers) : shadows(device, {}, jobs), layered(layers) {}
     /// Returns the scene of the last ViewGroups::arrange().
     const SceneSnapshot& scene() const { return *seen; }
 
@@ -37,7 +37,8 @@ struct ViewGroup {
 class ViewGroups {
 public:
     /// Creates no group yet. `shares_layers`: maps are layers of shared arrays (ShadowSystem).
-    ViewGroups(gl::Device& device, bool shares_layers) : device_(device), shares_layers_(shares_layers) {}
+    ViewGroups(gl::Device& device, Jobs* jobs, bool shares_layers)
+        : device_(device), jobs_(jobs), shares_layers_(shares_layers) {}
 
     /// Sorts the cameras into groups. `views` and `layers`: one per camera. Without cameras the group of all casters
     /// runs, so that lights have a status. `keeps_idle`: groups without views keep their maps for kIdleFrames.
@@ -56,6 +57,7 @@ private:
     ViewGroup& group_of(const ViewLayers& layers);
 
     gl::Device& device_;
+    Jobs* jobs_;
     bool shares_layers_;
     std::vector<std::unique_ptr<ViewGroup>> groups_;
     std::vector<ViewGroup*> active_;

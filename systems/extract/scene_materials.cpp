@@ -62,7 +62,7 @@ SceneMaterials& SceneMaterials::operator=(SceneMaterials&& other) noexcept {
     most_emissive_ = other.most_emissive_;
     seen_ = other.seen_;
     retry_ = other.retry_;
-    asked_ = other.asked_;
+    calls_ = other.calls_;
     return *this;
 }
 
@@ -198,13 +198,13 @@ void SceneMaterials::note_lights() {
 }
 
 void SceneMaterials::follow(gl::CommandList& list) {
-    ++asked_;
+    ++calls_;
     const bool changed = library_->version != seen_ || held_.size() < library_->materials.size();
     if (changed) note_changes();
     if (changed) note_lights();
-    if (lacks_ && retry_.due(asked_)) {
+    if (lacks_ && retry_.due(calls_)) {
         lacks_ = make_lacking(list) != gl::Failure::none;
-        if (lacks_) retry_.failed(asked_);
+        if (lacks_) retry_.failed(calls_);
     }
     for (const std::size_t m : unwritten_) write(m, list);
     unconfirmed_.insert(unconfirmed_.end(), unwritten_.begin(), unwritten_.end());

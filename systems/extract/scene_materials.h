@@ -100,7 +100,7 @@ private:
     float most_emissive_ = 0.0f;
     std::uint64_t seen_ = 0;
     Retry retry_;
-    std::uint64_t asked_ = 0;
+    std::uint64_t calls_ = 0;
 };
 
 }  // namespace gnomon

@@ -150,7 +150,7 @@ bool SceneMeshes::provide_colours(const assets::Mesh& mesh, bool may_grow) {
 }
 
 bool SceneMeshes::provide_caster_triangles() {
-    if (caster_triangles() || !casters_retry_.due(++casters_asked_)) return static_cast<bool>(caster_triangles());
+    if (caster_triangles() || !casters_retry_.due(++caster_calls_)) return static_cast<bool>(caster_triangles());
     std::vector<CasterTriangle> triangles(triangle_arrays_.places());
     RayMasks masks(*library_);
     for (std::uint32_t m = 0; m < held_.size(); ++m) {
@@ -166,7 +166,7 @@ bool SceneMeshes::provide_caster_triangles() {
         device_->destroy(array.buffer);
         triangle_arrays_.put(kCasters, {});
     }
-    if (!caster_triangles()) casters_retry_.failed(casters_asked_);
+    if (!caster_triangles()) casters_retry_.failed(caster_calls_);
     for (Bent& bent : bent_)
         if (!caster_triangles()) bent.triangles = {};
     masks.forget_changes();

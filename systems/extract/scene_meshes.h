@@ -129,7 +129,7 @@ private:
     std::vector<glm::vec4> texel_scratch_;
     std::vector<CasterTriangle> caster_scratch_;
     Retry room_retry_, casters_retry_;
-    std::uint64_t asked_ = 0, casters_asked_ = 0, seen_ = 0;
+    std::uint64_t calls_ = 0, caster_calls_ = 0, seen_ = 0;
     bool is_streaming_ = false;  // the library has changed
 };
 

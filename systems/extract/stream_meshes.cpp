@@ -7,7 +7,7 @@
 namespace gnomon {
 
 void SceneMeshes::follow(const SceneMaterials& materials, gl::CommandList& list) {
-    ++asked_;
+    ++calls_;
     const bool had_casters = static_cast<bool>(caster_triangles());
     if (library_->version != seen_) note_changes();
     if (!waiting_.empty()) place_waiting(materials, list);
@@ -55,7 +55,7 @@ void SceneMeshes::take_away(std::uint32_t m) {
 }
 
 void SceneMeshes::place_waiting(const SceneMaterials& materials, gl::CommandList& list) {
-    bool may_grow = room_retry_.due(asked_);
+    bool may_grow = room_retry_.due(calls_);
     if (may_grow) {
         std::uint64_t vertices = 0, triangles = 0;
         for (const std::uint32_t m : waiting_) {
@@ -68,7 +68,7 @@ void SceneMeshes::place_waiting(const SceneMaterials& materials, gl::CommandList
     std::erase_if(waiting_, [&](std::uint32_t m) {
         if (!has_materials(m, materials)) return false;
         if (place(m, may_grow, list)) return true;
-        if (may_grow) room_retry_.failed(asked_);
+        if (may_grow) room_retry_.failed(calls_);
         may_grow = false;  // one refusal per frame is enough
         return false;
     });

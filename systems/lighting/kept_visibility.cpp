@@ -47,7 +47,7 @@ KeptVisibility::Plan KeptVisibility::plan(ecs::Entity light, std::uint64_t signa
                                           glm::uvec2 picture_px) {
     if (signature == 0) return {};
     Entry& kept = entry(light);
-    kept.asked_picture = picture_;
+    kept.requested_picture = picture_;
     if (kept.signature != signature) {
         kept.signature = signature;
         kept.still_frames = 0;
@@ -130,8 +130,8 @@ void KeptVisibility::free_scratch() {
 
 void KeptVisibility::end() {
     const auto is_over = [&](Entry& kept) {
-        const bool gone =
-            kept.camera == camera_ ? kept.asked_picture != picture_ : picture_ - kept.asked_picture > kHoldFrames;
+        const bool gone = kept.camera == camera_ ? kept.requested_picture != picture_
+                                                 : picture_ - kept.requested_picture > kHoldFrames;
         if (gone || picture_ - kept.read_picture > kHoldFrames) free(kept);
         return gone;
     };

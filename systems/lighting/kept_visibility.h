@@ -68,7 +68,7 @@ private:
         gl::Rect area{};
         gl::TextureHandle texture{};
         gl::TargetHandle target{};
-        std::uint64_t asked_picture = 0, read_picture = 0;
+        std::uint64_t requested_picture = 0, read_picture = 0;
         Retry retry;  // for allocations, in pictures
     };
     Entry& entry(ecs::Entity light);

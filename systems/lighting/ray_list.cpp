@@ -68,10 +68,10 @@ bool RayList::provide(bool wanted, glm::uvec2 size_px, gl::TextureHandle depth) 
     if (wanted && answer_target_ && size_px == size_px_ && depth == depth_) return true;
     release();
     if (!wanted) return true;
-    if (!retry_.due(++asked_)) return false;
+    if (!retry_.due(++calls_)) return false;
     if (make(size_px, depth)) return true;
     release();
-    retry_.failed(asked_);
+    retry_.failed(calls_);
     return false;
 }
 

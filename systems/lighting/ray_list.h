@@ -46,7 +46,7 @@ private:
     gl::TargetHandle verdict_target_{}, answer_target_{};
     gl::BufferHandle pixels_{};
     Retry retry_;
-    std::uint64_t asked_ = 0;
+    std::uint64_t calls_ = 0;
 };
 
 }  // namespace gnomon::lighting

@@ -21,7 +21,7 @@
 
 namespace gnomon::shadow {
 
-ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history)
+ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history, Jobs* jobs)
     : device_(device),
       maps_(device),
       depth_pass_(device),
@@ -32,6 +32,7 @@ ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history)
       tint_pass_(device),
       rays_(device),
       tint_scene_(device),
+      jobs_(jobs),
       history_(fit_history) {}
 
 ShadowSystem::~ShadowSystem() {
@@ -194,22 +195,23 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     finish("request");
 
     lamp_offsets_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
-    select_sets(scene, {requests, f.lamps_ws_m}, storage_.sets, f.sets, accounts);
+    select_sets(scene, {requests, f.lamps_ws_m, jobs_}, storage_, f.sets, accounts);
     contribution_culling_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
     finish("culling");
 
     const bool budget_active = budget_.is_active() || settings.budget.rays > 0 || !settings.rays || rays_lack_;
-    fit_views(scene,
-              {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, budget_active},
-              storage_, f.fitted, f.next_history, accounts);
+    fit_views(
+        scene,
+        {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, budget_active, jobs_},
+        storage_, f.fitted, f.next_history, accounts);
     count_static_frames(scene, f.fitted, history_, budget_active, f.next_history);
     f.next_history.references = references;
     finish("fitting");
 
     budget_.apply_automatic(scene, f.fitted, history_, f.statuses);
     if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
-    budget_.decide(scene, gpu, {f.requests, f.sets, f.fitted, history_, waiting_bytes_}, f.next_history, f.decisions,
-                   accounts);
+    budget_.decide(scene, gpu, {f.requests, f.sets, f.fitted, history_, waiting_bytes_, jobs_}, f.next_history,
+                   f.decisions, accounts);
     provide_triangles(gpu, f.fitted, f.statuses);
     provide_rays(scene, gpu, lacked && !rays_lack_, out.list);
     finish("budget");

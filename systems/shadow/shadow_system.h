@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/jobs.h"
 #include "engine/gl/device.h"
 #include "gnomon/frame.h"
 #include "systems/extract/gpu_scene.h"
@@ -22,6 +23,7 @@
 #include "systems/shadow/frame/pass_inputs.h"
 #include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/frame/shadow_settings.h"
+#include "systems/shadow/frame/stage_storage.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/maps/tint_maps.h"
 #include "systems/shadow/passes/depth_pass.h"
@@ -45,8 +47,9 @@ using StageWatch = std::function<void(std::string_view stage, const ShadowFrame&
 class ShadowSystem {
 public:
     /// Creates the system. `fit_history`: history of an earlier system with a lost context, from which the fits
-    /// continue.
-    explicit ShadowSystem(gl::Device& device, const History& fit_history = {});
+    /// continue. `jobs`: threads that share the lights of a frame, and outlive the system; null: the calling one does
+    /// all.
+    explicit ShadowSystem(gl::Device& device, const History& fit_history = {}, Jobs* jobs = nullptr);
     ~ShadowSystem();
     ShadowSystem(const ShadowSystem&) = delete;
     ShadowSystem& operator=(const ShadowSystem&) = delete;
@@ -121,7 +124,8 @@ private:
     bool rays_lack_ = false;
     CostCalibration cost_calibration_;
     LampOffsets lamp_offsets_;
-    FitStorage storage_;
+    StageStorage storage_;
+    Jobs* jobs_;
     std::vector<DueView> due_;
     ShadowFrame frame_;
     History history_;

@@ -59,7 +59,7 @@ void RayScene::release() {
     submitted(true);
     held_.reset();
     report_ = {};
-    asked_ = 0;
+    calls_ = 0;
     retry_ = {};
     forgotten_ = false;
 }
@@ -78,7 +78,7 @@ void RayScene::name_buffers() {
 }
 
 bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
-    if (!retry_.due(++asked_)) return false;
+    if (!retry_.due(++calls_)) return false;
     if (!held_) held_.emplace(device_, gpu.library());
     held_->trees.update(scene);
     const bool is_streaming = gpu.library().version != 0;
@@ -93,7 +93,7 @@ bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::Comma
     if (ready && made) rewrite_bent(scene, gpu, list);
     ready = ready && write_instances(scene, !made || followed == Followed::changed, list);
     if (!ready) free_meshes();
-    if (!ready) retry_.failed(asked_);
+    if (!ready) retry_.failed(calls_);
     if (ready) forgotten_ = false;
     count();
     return ready;

@@ -86,7 +86,7 @@ private:
     RayBuffers buffers_;
     RayReport report_;
     Retry retry_;
-    std::uint64_t asked_ = 0;
+    std::uint64_t calls_ = 0;
     bool forgotten_ = false;
 };
 

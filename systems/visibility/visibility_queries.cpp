@@ -38,7 +38,7 @@ struct VisibilityQueries::State {
     const assets::MeshLibrary* library;
     SceneSnapshot scene;                   // instances alone
     bool relisted = false;                 // casters came, or began or ceased to cast
-    std::vector<visibility::Place> asked;  // scratch
+    std::vector<visibility::Place> places;  // scratch
     std::unique_ptr<Rays> rays;
 };
 
@@ -87,9 +87,10 @@ void VisibilityQueries::ask(const Light& light, const WorldTransform& light_at, 
     State& s = *state_;
     s.settle();
     if (!s.rays) s.rays = std::make_unique<State::Rays>(*s.library);
-    s.asked.clear();
-    for (const LitPlace& place : places) s.asked.push_back({place.position_m, place.radius_m});
-    s.rays->queries.ask(s.scene, placed(light, light_at), s.asked, {options.samples, options.nearest_m, options.threads}, shares);
+    s.places.clear();
+    for (const LitPlace& place : places) s.places.push_back({place.position_m, place.radius_m});
+    s.rays->queries.ask(s.scene, placed(light, light_at), s.places,
+                        {options.samples, options.nearest_m, options.threads}, shares);
 }
 
 }  // namespace gnomon

@@ -93,7 +93,7 @@ TEST_F(AuditOfTruth, ListsEachPixelThatCastersDarkenOfWhichTheTracerIsNotTold) {
     for (const bench::AuditedLight& light : audit.lights) {
         listed += light.disagreements.size();
         EXPECT_THAT(light.disagreements, Each(Field(&bench::ShadowDisagreement::traced_lit, true)));
-        EXPECT_THAT(light.disagreements, Each(Field(&bench::ShadowDisagreement::asked_lit, false)));
+        EXPECT_THAT(light.disagreements, Each(Field(&bench::ShadowDisagreement::queried_lit, false)));
     }
     EXPECT_GT(listed, 10000u);
     const std::string table = bench::audit_table(audit), json = bench::audit_json({audit});

@@ -62,10 +62,10 @@ protected:
             const oracle::Metrics metrics =
                 oracle::compare({hits.size_px, visibility(i), truth.visibility, truth.scored, truth.ambiguous});
             const double picture_px = 1.0;
-            const auto beyond = [&](double error_px, double wished) {
+            const auto beyond = [&](double error_px, double target_factor) {
                 return oracle::edge_exceptions(tracer, hits, camera, scene.lights.at(i), truth, metrics.edge,
                                                [&](const glm::dvec3& point, const glm::dvec3& normal) {
-                                                   return bounds.within(i, point, normal, error_px, wished);
+                                                   return bounds.within(i, point, normal, error_px, target_factor);
                                                });
             };
             constexpr double kPart = 0.1;  // control: a bound far from what is measured would pass anything

@@ -166,7 +166,8 @@ TEST_F(TruthContract, IsFoundBrokenWhereMapsHaveFourTimesTheTexelsThatTheySay) {
         options.camera = camera;
         const auto stage = open(options);
         ASSERT_TRUE(stage);
-        const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .with_edges = true, .wished = 0.25});
+        const auto accuracy =
+            bench::measure_accuracy(*stage, {.timed_frames = 0, .with_edges = true, .target_factor = 0.25});
         ASSERT_TRUE(accuracy);
         for (const bench::LightAccuracy& light : accuracy.value().lights) {
             asked += light.report.keeps_max_error;

@@ -25,15 +25,16 @@ public:
         for (std::size_t i = 0; i < frame.requests.size(); ++i) frame.statuses[i].skip(frame.requests[i].skip);
     }
     void select(const SceneSnapshot& scene) {
-        select_sets(scene, {frame.requests, {}}, storage.sets, frame.sets, {frame.statuses, {}});
+        select_sets(scene, {frame.requests, {}, jobs}, storage, frame.sets, {frame.statuses, {}});
     }
     void fit(const SceneSnapshot& scene, const History& held = {}, bool budget_active = false) {
-        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, held, {}, budget_active}, storage, frame.fitted,
-                  frame.next_history, {frame.statuses, {}});
+        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, held, {}, budget_active, jobs}, storage,
+                  frame.fitted, frame.next_history, {frame.statuses, {}});
     }
 
+    Jobs* jobs = nullptr;  // threads that share the lights
     SampledDepths sampled_depths;
-    FitStorage storage;
+    StageStorage storage;
 
 private:
     RayFallbacks fallbacks_;

@@ -150,7 +150,7 @@ TEST_P(DeviceFailure, TheLargestMapAloneFailingGivesASmallerOne) {
     for (const Pass& p : depth_passes()) EXPECT_EQ(p.begin.viewport.width, static_cast<std::int32_t>(kSize_px / 2));
     EXPECT_THAT(light_programs(), Contains(HasSubstr("filters")));
     end_fault();
-    EXPECT_EQ(report().counts.texels % (kSize_px * kSize_px), 0u) << "of the wished size again";
+    EXPECT_EQ(report().counts.texels % (kSize_px * kSize_px), 0u) << "of the requested size again";
 }
 
 TEST_P(DeviceFailure, NoLayersOfTranslucentCastersLeaveTheShadowAsItIs) {

@@ -106,7 +106,7 @@ TEST_P(ChosenFilter, SizesMapsByTheNarrowestCasterWhereOneIsNamed) {
         << "texels decide its edges";
 }
 
-TEST_P(ChosenFilter, StaysTheUsualOneWhereItsMapsKeepTheWord) {
+TEST_P(ChosenFilter, StaysTheUsualOneWhereItsMapsMeetTheTarget) {
     ask({.narrowest_caster_px = kLoose_px});
     step_at(kFar_m);
     EXPECT_EQ(light("lamp").filter.filter, kUsual);

@@ -211,11 +211,14 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
             fixed_bytes += *inputs.waiting_bytes[i];
             continue;
         }
-        loads_.push_back(load_of(scene, gpu, inputs, i, entry));
         grants_.push_back(entry.budget.grant);
         lights_.push_back(i);
         held_.push_back(held - 1);
     }
+    loads_.resize(lights_.size());
+    for_each_light(inputs.jobs, loads_.size(), [&](std::size_t i, std::size_t) {
+        loads_[i] = load_of(scene, gpu, inputs, lights_[i], next.lights[held_[i]]);
+    });
     weigh(scene, inputs);
     return fixed_bytes;
 }

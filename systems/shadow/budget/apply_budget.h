@@ -12,6 +12,7 @@
 #include "systems/shadow/frame/budget_decision.h"
 #include "systems/shadow/frame/drawn_views.h"
 #include "systems/shadow/frame/light_accounts.h"
+#include "systems/shadow/frame/light_jobs.h"
 #include "systems/shadow/frame/shadow_view.h"
 
 namespace gnomon::shadow {
@@ -26,6 +27,7 @@ struct BudgetInputs {
     const FittedViews& fitted;
     const History& held;
     WaitingBytes waiting_bytes;  // MapCache::waiting_bytes(); these lights keep their maps until the next try
+    Jobs* jobs = nullptr;        // threads that share the lights; null: the calling one does all
 };
 
 /// What a budget leaves for drawing maps in one frame, by the cost model.

@@ -66,8 +66,8 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 void ContributionCulling::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
                                      double exposure, std::span<const LightStatus> statuses) {
     const bool known = std::isfinite(exposure);
-    const auto asked = [](const LightStatus& status) { return !status.is_skipped(); };
-    if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // no light to compare with
+    const auto takes_part = [](const LightStatus& status) { return !status.is_skipped(); };
+    if (!known && std::count_if(statuses.begin(), statuses.end(), takes_part) < 2) return;  // no light to compare with
     double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;        // steps at an exposure of 1
     for (std::uint32_t i = 0; i < statuses.size(); ++i) {
         const LightItem& item = scene.lights[i];

@@ -15,11 +15,10 @@ namespace {
 /// Planes around what a camera sees from a distance on within a light frustum.
 class ClipPlanes {
 public:
-    ClipPlanes(const ConsumerItem& consumer, std::span<const math::Plane> opening, double from_m) {
+    ClipPlanes(const ConsumerItem& consumer, std::span<const math::Plane> sides, double from_m) {
         const math::Frustum frustum = consumer_frustum(consumer, std::max(consumer.near_m, from_m));
         const auto seen = math::planes_of(frustum);
-        const auto end =
-            std::copy(opening.begin(), opening.end(), std::copy(seen.begin(), seen.end(), planes_.begin()));
+        const auto end = std::copy(sides.begin(), sides.end(), std::copy(seen.begin(), seen.end(), planes_.begin()));
         count_ = static_cast<std::size_t>(end - planes_.begin());
     }
     std::span<const math::Plane> all() const { return std::span(planes_).first(count_); }
@@ -41,7 +40,7 @@ double farthest_depth_m(const ConsumerItem& consumer, std::span<const glm::dvec3
 void append_error_points(const SceneSnapshot& scene, const SeenReceivers& seen, const LightReach& reach,
                          SetScratch& scratch, ReceiverCasterSets& out) {
     const ConsumerItem& consumer = scene.consumers[seen.camera];
-    const ClipPlanes whole(consumer, seen.opening, consumer.near_m);
+    const ClipPlanes whole(consumer, seen.sides, consumer.near_m);
     scratch.surfaces.clear();
     for (const std::uint32_t i : seen.items) {
         if (!is_air(scene.instances[i])) {
@@ -52,11 +51,11 @@ void append_error_points(const SceneSnapshot& scene, const SeenReceivers& seen, 
         scratch.points_ws.clear();
         if (math::clip_box(whole.all(), box, scratch.points_ws) == 0) continue;
         const double from_m = kAirShare * farthest_depth_m(consumer, scratch.points_ws);
-        math::clip_box(ClipPlanes(consumer, seen.opening, from_m).all(), box, out.error_points_ws);
+        math::clip_box(ClipPlanes(consumer, seen.sides, from_m).all(), box, out.error_points_ws);
     }
     const double nearest_m = out.nearest_surface_m[seen.camera];
     if (scratch.surfaces.empty() || !std::isfinite(nearest_m)) return;
-    const ClipPlanes planes(consumer, seen.opening, nearest_m);
+    const ClipPlanes planes(consumer, seen.sides, nearest_m);
     const math::Aabb limit = reach.bounds();
     const SplitReceivers split =
         split_receivers(scene, scratch.surfaces, {planes.all(), limit, seen.core}, scratch.split);

@@ -13,7 +13,7 @@ namespace gnomon::shadow {
 struct SeenReceivers {
     std::uint32_t camera = 0;                    // index into SceneSnapshot::consumers
     std::span<const std::uint32_t> items;        // rising indices into SceneSnapshot::instances
-    std::span<const math::Plane> opening, core;  // planes of the light frustum; ReceiverVolume::core
+    std::span<const math::Plane> sides, core;    // planes of the light frustum; ReceiverVolume::core
 };
 
 /// Appends corners to ReceiverCasterSets::error_points_ws: of surfaces from the camera's nearest one on, of each box of

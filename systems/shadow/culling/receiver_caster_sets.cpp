@@ -15,6 +15,7 @@
 #include "systems/shadow/culling/receiver_hull.h"
 #include "systems/shadow/culling/swept_volume.h"
 #include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/frame/light_jobs.h"
 #include "systems/shadow/projection/light_frusta.h"
 #include "systems/shadow/projection/light_range.h"
 #include "systems/shadow/projection/perspective_view.h"
@@ -31,10 +32,10 @@ IndexRange since(std::size_t first, std::size_t end) {
 }
 
 /// Returns a cube's face without what it shares with its neighbours. A wider frustum loses its sides.
-LightFrustum without_border(LightFrustum opening) {
-    opening.low = glm::max(opening.low, glm::dvec2(-1.0));
-    opening.high = glm::min(opening.high, glm::dvec2(1.0));
-    return opening;
+LightFrustum without_border(LightFrustum frustum) {
+    frustum.low = glm::max(frustum.low, glm::dvec2(-1.0));
+    frustum.high = glm::min(frustum.high, glm::dvec2(1.0));
+    return frustum;
 }
 
 /// Search for the receivers of one light.
@@ -50,8 +51,8 @@ public:
         find_candidates();
         scratch_.receivers.clear(scene_.instances.size());
         if (light_facts(light_.kind).parallel) look_along_sun();
-        const LightFrusta openings = light_frusta(light_, request);
-        for (const LightFrustum& opening : openings.span()) look_through(opening);
+        const LightFrusta frusta = light_frusta(light_, request);
+        for (const LightFrustum& frustum : frusta.span()) look_through(frustum);
         scratch_.receivers.for_each([&](std::uint32_t i) { out_.receiver_items.push_back(i); });
         LightSets sets;
         sets.receivers = since(receivers, out_.receiver_items.size());
@@ -72,7 +73,7 @@ private:
             const SeenReach seen(planes, reach_);
             const auto classify = [&](const math::Aabb& box, math::OpenTests& open) { return seen.overlap(box, open); };
             visit_instances(scene_, seen.tests(), classify, [&](std::uint32_t i) {
-                if (scratch_.layers.shows_shadows_of(light_, i)) scratch_.marks.add(i);
+                if (scratch_.layers->shows_shadows_of(light_, i)) scratch_.marks.add(i);
             });
             const std::size_t first = scratch_.candidates.size();
             scratch_.marks.for_each([&](std::uint32_t i) { scratch_.candidates.push_back(i); });
@@ -82,21 +83,19 @@ private:
 
     /// Clips the candidates to their camera's frustum and the given planes, and appends the corners. Adds the numbers
     /// of receivers and the cameras to `receiver_hull`. `core`: ReceiverVolume::core.
-    IndexRange clip_candidates(std::span<const math::Plane> opening, std::span<const math::Plane> core,
+    IndexRange clip_candidates(std::span<const math::Plane> sides, std::span<const math::Plane> core,
                                ReceiverHull& receiver_hull) {
         const std::size_t first = out_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
         for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
             const auto seen = math::planes_of(out_.camera_frusta[c]);
-            const auto end =
-                std::copy(opening.begin(), opening.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
+            const auto end = std::copy(sides.begin(), sides.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
             const std::uint32_t found = clip_candidates_of(c, used, core);
             if (found > 0) receiver_hull.consumers |= consumer_bit(c);
             receiver_hull.receivers += found;
             if (!out_.nearest_surface_m.empty())
-                append_error_points(scene_,
-                                    {c, slice(scratch_.candidates, scratch_.camera_candidates[c]), opening, core},
+                append_error_points(scene_, {c, slice(scratch_.candidates, scratch_.camera_candidates[c]), sides, core},
                                     reach_, scratch_, out_);
         }
         return since(first, out_.receiver_points_ws.size());
@@ -132,9 +131,9 @@ private:
         out_.hulls.push_back(receiver_hull);
     }
 
-    void look_through(const LightFrustum& opening) {
+    void look_through(const LightFrustum& frustum) {
         const glm::dvec3& lamp = lamp_ws_m_;
-        const auto sides = frustum_planes(lamp, opening), core = frustum_planes(lamp, without_border(opening));
+        const auto sides = frustum_planes(lamp, frustum), core = frustum_planes(lamp, without_border(frustum));
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
@@ -143,9 +142,9 @@ private:
         if (half_space) *end = shone_side(light_);
         ReceiverHull seen, receiver_hull;
         const IndexRange range = clip_candidates(std::span(planes).first(cone || half_space ? 5 : 4), core, seen);
-        if (range.count > 0) receiver_hull = frustum_hull(lamp, opening, points(range), out_.outlines, scratch_);
+        if (range.count > 0) receiver_hull = frustum_hull(lamp, frustum, points(range), out_.outlines, scratch_);
         receiver_hull.origin_ws_m = lamp;
-        receiver_hull.axes = opening.axes;
+        receiver_hull.axes = frustum.axes;
         if (receiver_hull.outline.count > 0) {
             receiver_hull.receiver_points = range;
             receiver_hull.receivers = seen.receivers;
@@ -166,8 +165,8 @@ private:
 
 /// Returns how far outside a lamp's receiver hull casters may hide part of an area light, as a tangent: as far as
 /// filters read texels.
-double lamp_reach(const FilterSettings& filter, double size_px, const LightFrustum& opening) {
-    const glm::dvec2 sides = opening.high - opening.low;
+double lamp_reach(const FilterSettings& filter, double size_px, const LightFrustum& frustum) {
+    const glm::dvec2 sides = frustum.high - frustum.low;
     const double seen_px = size_px - 2.0 * border_px(size_px, static_cast<double>(filter.border_texel));
     return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
 }
@@ -207,7 +206,7 @@ void mark_around_source(const SceneSnapshot& scene, const LightItem& light, std:
             return math::is_empty(math::intersection(around, box)) ? Overlap::outside : Overlap::partial;
         },
         [&](std::uint32_t i) {
-            if (scratch.layers.casts_under(light, i)) scratch.marks.add(i);
+            if (scratch.layers->casts_under(light, i)) scratch.marks.add(i);
         });
 }
 
@@ -217,7 +216,7 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
     scratch.marks.clear(scene.instances.size());
     const FilterSettings& filter = request.map.filtering;
     const bool has_size = needs_distances(filter);
-    const LightFrusta openings = has_size ? light_frusta(light, request) : LightFrusta{};
+    const LightFrusta frusta = has_size ? light_frusta(light, request) : LightFrusta{};
     for (std::uint32_t b = 0; b < hulls.count; ++b) {
         const ReceiverHull& receiver_hull = out.hulls[hulls.first + b];
         if (receiver_hull.outline.count == 0) continue;
@@ -226,7 +225,7 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
         double reach = 0.0;
         if (has_size)
             reach = receiver_hull.parallel ? sun_reach_m(scene, filter, receiver_hull)
-                                           : lamp_reach(filter, request.map.resolution_px, openings.items[b]);
+                                           : lamp_reach(filter, request.map.resolution_px, frusta.items[b]);
         if (has_size) widen(scratch.polygon, glm::dvec2(reach), scratch);
         const double reach_m = 2.0 * reach * (receiver_hull.parallel ? 1.0 : receiver_hull.far_m);
         const SweptVolume volume =
@@ -235,7 +234,7 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
             scene, tests_of(volume),
             [&](const math::Aabb& box, math::OpenTests& open) { return overlap(volume, box, open); },
             [&](std::uint32_t i) {
-                if (scratch.layers.casts_under(light, i)) scratch.marks.add(i);
+                if (scratch.layers->casts_under(light, i)) scratch.marks.add(i);
             });
     }
     if (has_size && light_facts(light.kind).area())
@@ -270,6 +269,26 @@ ShadowLayers layers_of_all(const SceneSnapshot& scene, std::span<const ShadowReq
     return layers;
 }
 
+/// Calls `select` for each light, on several threads, and puts what they find in the order of the lights.
+template <class Select>
+void select_on_threads(std::size_t threads, const SetInputs& inputs, const Select& select, StageStorage& storage,
+                       ReceiverCasterSets& sets) {
+    storage.results.resize(std::max(storage.results.size(), threads));
+    storage.thread_of.resize(sets.lights.size());
+    for (ThreadResults& results : storage.results) {
+        results.sets.clear();
+        results.sets.camera_frusta = sets.camera_frusta;
+        results.sets.nearest_surface_m = sets.nearest_surface_m;
+    }
+    for_each_light(inputs.jobs, sets.lights.size(), [&](std::size_t light, std::size_t thread) {
+        storage.thread_of[light] = thread;
+        select(light, thread, storage.results[thread].sets);
+    });
+    for (std::size_t i = 0; i < sets.lights.size(); ++i)
+        sets.lights[i] = append_sets(storage.results[storage.thread_of[i]].sets, sets.lights[i], sets);
+    for (ThreadResults& results : storage.results) reserve_as(sets, results.sets);  // any may find most next time
+}
+
 }  // namespace
 
 bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer) {
@@ -299,25 +318,38 @@ LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, con
     return sets;
 }
 
-void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, SetScratch& scratch, ReceiverCasterSets& sets,
+void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStorage& storage, ReceiverCasterSets& sets,
                  const LightAccounts& accounts) {
     sets.clear();
-    scratch.layers.update(scene);
+    storage.layers.update(scene);
+    const std::size_t lights = inputs.requests.size(), threads = threads_for(inputs.jobs, lights);
+    storage.scratch.resize(std::max(storage.scratch.size(), threads));
+    for (StageScratch& scratch : storage.scratch) scratch.sets.layers = &storage.layers;
     const ShadowLayers layers = layers_of_all(scene, inputs.requests);
+    SetScratch& first = storage.scratch.front().sets;
     for (const ConsumerItem& consumer : scene.consumers) {
-        sets.camera_frusta.push_back(seen_receivers(scene, consumer, layers, scratch));
+        sets.camera_frusta.push_back(seen_receivers(scene, consumer, layers, first));
         if (scene.air.any)
             sets.nearest_surface_m.push_back(
-                nearest_receiver_m(scene, consumer, layers, scratch.points_ws, ReceiverKinds::surfaces));
+                nearest_receiver_m(scene, consumer, layers, first.points_ws, ReceiverKinds::surfaces));
     }
-    for (std::uint32_t i = 0; i < inputs.requests.size(); ++i) {
+    sets.lights.resize(lights);
+    const auto select = [&](std::size_t index, std::size_t thread, ReceiverCasterSets& out) {
+        const auto i = static_cast<std::uint32_t>(index);
+        if (accounts.statuses[i].is_skipped()) return;
         const LightTimer time(accounts.cpu_us, i);
-        LightSets& found = sets.lights.emplace_back();
+        sets.lights[i] = select_light_sets(scene, i, inputs.requests[i], lamp_ws_m(inputs.lamps_ws_m, scene, i),
+                                           storage.scratch[thread].sets, out);
+    };
+    if (threads > 1)
+        select_on_threads(threads, inputs, select, storage, sets);
+    else
+        for (std::size_t i = 0; i < lights; ++i) select(i, 0, sets);
+    for (std::size_t i = 0; i < lights; ++i) {
         LightStatus& status = accounts.statuses[i];
         if (status.is_skipped()) continue;
-        found = select_light_sets(scene, i, inputs.requests[i], lamp_ws_m(inputs.lamps_ws_m, scene, i), scratch, sets);
-        if (found.receivers.count == 0) status.skip(Reason::no_visible_receiver);
-        if (found.casters.count == 0) status.skip(Reason::no_caster);
+        if (sets.lights[i].receivers.count == 0) status.skip(Reason::no_visible_receiver);
+        if (sets.lights[i].casters.count == 0) status.skip(Reason::no_caster);
     }
 }
 

@@ -35,13 +35,13 @@ void widen(std::vector<glm::dvec2>& polygon, const glm::dvec2& by, SetScratch& s
     math::convex_hull(scratch.points, polygon);
 }
 
-std::array<math::Plane, 4> frustum_planes(const glm::dvec3& light_ws_m, const LightFrustum& opening) {
-    const glm::dvec3 &u = opening.axes[0], &v = opening.axes[1], &back = opening.axes[2];
+std::array<math::Plane, 4> frustum_planes(const glm::dvec3& light_ws_m, const LightFrustum& frustum) {
+    const glm::dvec3 &u = frustum.axes[0], &v = frustum.axes[1], &back = frustum.axes[2];
     const auto through_light = [&](const glm::dvec3& normal) {
         return math::Plane{normal, -glm::dot(normal, light_ws_m)};
     };
-    return {through_light(u + opening.low.x * back), through_light(-u - opening.high.x * back),
-            through_light(v + opening.low.y * back), through_light(-v - opening.high.y * back)};
+    return {through_light(u + frustum.low.x * back), through_light(-u - frustum.high.x * back),
+            through_light(v + frustum.low.y * back), through_light(-v - frustum.high.y * back)};
 }
 
 ReceiverHull directional_hull(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws,
@@ -66,24 +66,24 @@ ReceiverHull directional_hull(const glm::dmat3& axes, std::span<const glm::dvec3
     return receiver_hull;
 }
 
-ReceiverHull frustum_hull(const glm::dvec3& light_ws_m, const LightFrustum& opening,
+ReceiverHull frustum_hull(const glm::dvec3& light_ws_m, const LightFrustum& frustum,
                           std::span<const glm::dvec3> points_ws, std::vector<glm::dvec2>& outlines,
                           SetScratch& scratch) {
     ReceiverHull receiver_hull;
     receiver_hull.origin_ws_m = light_ws_m;
-    receiver_hull.axes = opening.axes;
+    receiver_hull.axes = frustum.axes;
     scratch.points.clear();
     double size = largest_coordinate(light_ws_m), slack = 0.0;
     for (const glm::dvec3& p_ws : points_ws) size = std::max(size, largest_coordinate(p_ws));
     for (const glm::dvec3& p_ws : points_ws) {
-        const glm::dvec3 p = (p_ws - light_ws_m) * opening.axes;
+        const glm::dvec3 p = (p_ws - light_ws_m) * frustum.axes;
         receiver_hull.far_m = std::max(receiver_hull.far_m, -p.z);
         receiver_hull.reach_m = std::max(receiver_hull.reach_m, glm::length(p));
         // A point at the light itself has no direction: the clamp below handles NaN and infinity. No point is behind.
         const glm::dvec2 tangents = glm::dvec2(p) / -p.z;
         slack = std::max(slack,
                          -p.z > 0.0 ? math::kClippedRounding * size / -p.z : std::numeric_limits<double>::infinity());
-        scratch.points.push_back(glm::clamp(tangents, opening.low, opening.high));
+        scratch.points.push_back(glm::clamp(tangents, frustum.low, frustum.high));
     }
     if (!(receiver_hull.far_m > math::kClippedRounding * size)) {
         receiver_hull.far_m = receiver_hull.reach_m = 0.0;
@@ -91,12 +91,12 @@ ReceiverHull frustum_hull(const glm::dvec3& light_ws_m, const LightFrustum& open
     }
     receiver_hull.far_m += math::kClippedRounding * size;
     receiver_hull.reach_m += math::kClippedRounding * size;
-    const glm::dvec2 sides = opening.high - opening.low;
+    const glm::dvec2 sides = frustum.high - frustum.low;
     if (slack < std::max(sides.x, sides.y)) {
         receiver_hull.slack = slack;
     } else {
         scratch.points.assign(
-            {opening.low, {opening.high.x, opening.low.y}, opening.high, {opening.low.x, opening.high.y}});
+            {frustum.low, {frustum.high.x, frustum.low.y}, frustum.high, {frustum.low.x, frustum.high.y}});
     }
     receiver_hull.outline = append_outline(receiver_hull.slack, outlines, scratch);
     return receiver_hull;

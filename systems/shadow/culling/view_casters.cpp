@@ -69,7 +69,7 @@ private:
             scene_, tests_of(volume),
             [&](const math::Aabb& box, math::OpenTests& open) { return overlap(volume, box, open); },
             [&](std::uint32_t i) {
-                if (scratch_.layers.casts_under(light_, i)) scratch_.marks.add(i);
+                if (scratch_.layers->casts_under(light_, i)) scratch_.marks.add(i);
             });
     }
 
@@ -141,24 +141,24 @@ private:
 
     /// Marks the casters of a spot's view, a cube face or a sun's view from an eye.
     void look_through() {
-        const LightFrustum opening = frustum_of(view_);
+        const LightFrustum frustum = frustum_of(view_);
         ReceiverHull receiver_hull;
         const auto hulls = sets_.hulls();
         const auto same = std::find_if(hulls.begin(), hulls.end(), [&](const ReceiverHull& b) {
-            return !b.parallel && b.origin_ws_m == apex_ws_m(view_) && b.axes == opening.axes;
+            return !b.parallel && b.origin_ws_m == apex_ws_m(view_) && b.axes == frustum.axes;
         });
         if (view_.held) {
             receiver_hull.origin_ws_m = apex_ws_m(view_);
-            receiver_hull.axes = opening.axes;
+            receiver_hull.axes = frustum.axes;
             receiver_hull.far_m = view_.depth.far_m;
             receiver_hull.reach_m = std::numeric_limits<double>::infinity();
-            assign_rectangle(opening.low, opening.high, scratch_.polygon);
+            assign_rectangle(frustum.low, frustum.high, scratch_.polygon);
         } else if (same != hulls.end()) {
             receiver_hull = *same;
             const auto outline = sets_.outline(receiver_hull);
             scratch_.polygon.assign(outline.begin(), outline.end());
         } else {
-            receiver_hull = hull_through(opening);
+            receiver_hull = hull_through(frustum);
         }
         if (scratch_.polygon.empty()) return;
         widen(scratch_.polygon, reach_, scratch_);
@@ -169,12 +169,12 @@ private:
     }
 
     /// Computes the receiver hull of a light frustum that the sets do not contain, by clipping the receivers again.
-    ReceiverHull hull_through(const LightFrustum& opening) {
-        const auto sides = frustum_planes(apex_ws_m(view_), opening);
+    ReceiverHull hull_through(const LightFrustum& frustum) {
+        const auto sides = frustum_planes(apex_ws_m(view_), frustum);
         scratch_.points_ws.clear();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
-        for (const math::Frustum& frustum : sets_.arrays.camera_frusta) {
-            const auto seen = math::planes_of(frustum);
+        for (const math::Frustum& camera : sets_.arrays.camera_frusta) {
+            const auto seen = math::planes_of(camera);
             const auto end = std::copy(sides.begin(), sides.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
             for (const std::uint32_t i : sets_.receivers())
@@ -184,7 +184,7 @@ private:
         if (scratch_.points_ws.empty()) return {};
         scratch_.outline.clear();
         ReceiverHull receiver_hull =
-            frustum_hull(apex_ws_m(view_), opening, scratch_.points_ws, scratch_.outline, scratch_);
+            frustum_hull(apex_ws_m(view_), frustum, scratch_.points_ws, scratch_.outline, scratch_);
         scratch_.polygon.assign(scratch_.outline.begin(), scratch_.outline.end());
         return receiver_hull;
     }

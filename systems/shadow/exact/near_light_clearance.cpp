@@ -20,7 +20,7 @@ namespace {
 constexpr double kInset = 1e-6;
 
 /// Light frustum of one map, drawn or not.
-struct Opening {
+struct ViewSides {
     glm::dmat3 axes{1.0};
     glm::dvec2 tan_low{-1.0}, tan_high{1.0};
     double near_m = 0.0;
@@ -39,13 +39,13 @@ public:
         // Faces without a view are looked up as well: nothing may stand before them.
         const bool cube = map_texture(light_, in.drawn.lights[light].request) == gl::TextureKind::cube;
         if (cube)
-            for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
+            for (std::uint32_t face = 0; face < kFaces; ++face) frusta_[face].axes = turned_axes(face);
         if (cube) count_ = kFaces;
         const IndexRange range = in.drawn.fitted.lights[light].views;
         for (std::size_t v = range.first; v < range.end(); ++v) {
             const ShadowView& view = in.drawn.view(v);
-            Opening& opening = openings_[cube ? view.layer : count_++];
-            opening = {{view.pose.axis_u, view.pose.axis_v, view.pose.axis_back},
+            ViewSides& frustum = frusta_[cube ? view.layer : count_++];
+            frustum = {{view.pose.axis_u, view.pose.axis_v, view.pose.axis_back},
                        view.plane.tan_low,
                        view.plane.tan_high,
                        view.depth.near_m,
@@ -82,17 +82,17 @@ private:
     /// map alone.
     bool counts(const Corners& corners) const {
         for (std::size_t i = 0; i < count_; ++i)
-            if (is_near(openings_[i], corners) && !is_held(openings_[i], corners)) return true;
+            if (is_near(frusta_[i], corners) && !shows_whole(frusta_[i], corners)) return true;
         return false;
     }
 
     /// Returns whether the triangle may come within the source's radius of the light frustum. All segments from its
     /// places to the source's middle lie in the frustum. Segments to the rest of the source are within the radius of
     /// them.
-    bool is_near(const Opening& opening, const Corners& corners) const {
-        const glm::dvec3 &u = opening.axes[0], &v = opening.axes[1], &back = opening.axes[2];
-        const std::array<glm::dvec3, 5> outward{-u - opening.tan_low.x * back, u + opening.tan_high.x * back,
-                                                -v - opening.tan_low.y * back, v + opening.tan_high.y * back, back};
+    bool is_near(const ViewSides& frustum, const Corners& corners) const {
+        const glm::dvec3 &u = frustum.axes[0], &v = frustum.axes[1], &back = frustum.axes[2];
+        const std::array<glm::dvec3, 5> outward{-u - frustum.tan_low.x * back, u + frustum.tan_high.x * back,
+                                                -v - frustum.tan_low.y * back, v + frustum.tan_high.y * back, back};
         return std::none_of(outward.begin(), outward.end(), [&](const glm::dvec3& normal) {
             const double beyond = radius_m_ * glm::length(normal) * (1.0 + kInset);
             return std::all_of(corners.begin(), corners.end(),
@@ -101,15 +101,15 @@ private:
     }
 
     /// Returns whether the frustum's map shows the whole triangle.
-    static bool is_held(const Opening& opening, const Corners& corners) {
-        const glm::dvec2 inset = kInset * (opening.tan_high - opening.tan_low);
+    static bool shows_whole(const ViewSides& frustum, const Corners& corners) {
+        const glm::dvec2 inset = kInset * (frustum.tan_high - frustum.tan_low);
         const auto inside = [&](const glm::dvec3& c) {
-            const double z_m = -glm::dot(c, opening.axes[2]);
-            const glm::dvec2 at(glm::dot(c, opening.axes[0]), glm::dot(c, opening.axes[1]));
-            const glm::dvec2 low = at - (opening.tan_low + inset) * z_m, high = (opening.tan_high - inset) * z_m - at;
-            return z_m >= opening.near_m && std::min({low.x, low.y, high.x, high.y}) >= 0.0;
+            const double z_m = -glm::dot(c, frustum.axes[2]);
+            const glm::dvec2 at(glm::dot(c, frustum.axes[0]), glm::dot(c, frustum.axes[1]));
+            const glm::dvec2 low = at - (frustum.tan_low + inset) * z_m, high = (frustum.tan_high - inset) * z_m - at;
+            return z_m >= frustum.near_m && std::min({low.x, low.y, high.x, high.y}) >= 0.0;
         };
-        return opening.drawn && std::all_of(corners.begin(), corners.end(), inside);
+        return frustum.drawn && std::all_of(corners.begin(), corners.end(), inside);
     }
 
     const SceneSnapshot& scene_;
@@ -118,7 +118,7 @@ private:
     double radius_m_;
     double within_m_;  // casters nearer than this count in any case: places of an area light may lie before them
     double least_m_;
-    std::array<Opening, kMaxViews> openings_;
+    std::array<ViewSides, kMaxViews> frusta_;
     std::size_t count_ = 0;
 };
 

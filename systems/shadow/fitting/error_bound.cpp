@@ -39,13 +39,21 @@ glm::dvec2 on_screen(const ConsumerItem& consumer, const glm::dvec3& p_ws, const
     return (glm::dvec2(d) + glm::dvec2(p) * (d.z / z_m)) / (z_m * footprint);
 }
 
-/// Returns the most pixels that a metre covers at this depth, anywhere on the screen and in any direction.
-double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
-    const double footprint = pixel_footprint(consumer);
-    if (!is_perspective(consumer)) return 1.0 / footprint;
-    const double tan_y = std::tan(0.5 * consumer.fov_y_rad), tan_x = tan_y * aspect(consumer);
-    return std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y) / (depth_m * footprint);
-}
+/// Most pixels that a metre covers at a depth, anywhere on a camera's screen and in any direction.
+class PixelsPerMetre {
+public:
+    explicit PixelsPerMetre(const ConsumerItem& consumer)
+        : perspective_(is_perspective(consumer)), footprint_(pixel_footprint(consumer)) {
+        if (!perspective_) return;
+        const double tan_y = std::tan(0.5 * consumer.fov_y_rad), tan_x = tan_y * aspect(consumer);
+        slant_ = std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y);
+    }
+    double at(double depth_m) const { return perspective_ ? slant_ / (depth_m * footprint_) : 1.0 / footprint_; }
+
+private:
+    bool perspective_;
+    double footprint_, slant_ = 1.0;
+};
 
 glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec3 p = p_ws - apex_ws_m(view);
@@ -81,11 +89,12 @@ bool within(const ShadowView& view, const glm::dvec3& p_ws) {
 template <class Visit>
 void for_each_served(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                      const Visit& visit) {
+    const PixelsPerMetre pixels_per_metre(consumer);
     for (const glm::dvec3& p_ws : points_ws) {
         const double depth_m = depth_from(consumer, p_ws);
         if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
         const double served_m = std::max({depth_m, consumer.near_m, view.cascade.seen_from_m});
-        visit(texel_at(view, p_ws), served_m, kSteepestReceiver * pixels_per_metre(consumer, served_m), depth_m);
+        visit(texel_at(view, p_ws), served_m, kSteepestReceiver * pixels_per_metre.at(served_m), depth_m);
     }
 }
 

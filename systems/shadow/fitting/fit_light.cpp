@@ -94,9 +94,9 @@ bool settle_size(const LightItem& light, std::span<const ShadowView> views, cons
     const bool is_held = request.map.resolution_px == held.size.map_px;
     const double target_px = texel_target_px(light.shadow, request.map.filter), error_px = predicted_px(views);
     fitted.note(request.map.resolution_px, meets_target(error_px, target_px));
-    const std::uint32_t wish_px =
+    const std::uint32_t wanted_px =
         target_size_px(request.map.resolution_px, is_held, error_px, target_px, request.limits.max_px);
-    const std::uint32_t size_px = std::min(fitted.between(wish_px), request.limits.max_px);
+    const std::uint32_t size_px = std::min(fitted.between(wanted_px), request.limits.max_px);
     const bool spare = is_held && size_px < request.map.resolution_px;
     // Counts past kSpareFrames mean that the smaller size missed the target: a border is a larger share of a smaller
     // map.
@@ -124,13 +124,13 @@ LightFitHistory without_fits(const LightFitHistory& held) {
     return fresh;
 }
 
-LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, FitStorage& storage,
+LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, StageScratch& scratch,
                    FittedViews& out)
     : scene_(scene),
       inputs_(inputs),
       light_(scene.lights[light]),
       index_(light),
-      storage_(storage),
+      scratch_(scratch),
       out_(out),
       first_view_(out.views.size()),
       first_caster_(out.casters.size()),
@@ -181,7 +181,7 @@ bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
                          sets.arrays.receiver_points_ws,
                          request.map.filtering.border_texel,
                          inputs_.sampled_depths,
-                         storage_.fits,
+                         scratch_.fits,
                          held,
                          next};
     ++out_.lights[index_].fits;
@@ -275,7 +275,7 @@ void LightFit::select_sets_again() {
     sets.outlines.resize(first_resized_.outlines);
     FitChoice& choice = out_.lights[index_];
     choice.sets = select_light_sets(scene_, index_, choice.request, lamp_ws_m(inputs_.lamps_ws_m, scene_, index_),
-                                    storage_.sets, sets);
+                                    scratch_.sets, sets);
     choice.resized = true;
 }
 
@@ -299,10 +299,10 @@ Reason LightFit::select_casters() {
             view.error.texel_m > 0.0 && request.note == Reason::none)
             request.note = Reason::depth_coarse;
         const CasterInputs inputs{out_.sets_of(inputs_.sets, index_), request.map.filtering, inputs_.moving};
-        select_view_casters(scene_, inputs, view, storage_.sets, out_.casters);
+        select_view_casters(scene_, inputs, view, scratch_.sets, out_.casters);
         view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;
         state_edges(filter_row(request.map.filter).storage.triangle_ids && !has_casters_by_depth(view), view);
-        choose_proxies(scene_, request.map, view, storage_.drawn, out_);
+        choose_proxies(scene_, request.map, view, scratch_.drawn, out_);
         any = any || view.casters.count > 0;
     }
     return any ? Reason::none : Reason::no_caster;  // no caster where its shadow would be seen

@@ -5,11 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/jobs.h"
 #include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/frame/receiver_caster_sets.h"
 #include "systems/shadow/frame/shadow_view.h"
+#include "systems/shadow/frame/stage_storage.h"
 
 namespace gnomon::shadow {
 
@@ -22,13 +24,7 @@ struct FitInputs {
     const History& held;                     // fit history that the frame before left; empty: none
     std::span<const std::uint64_t> moving;   // as DynamicCasters::moving()
     bool budget_active = false;              // a budget is active, or rays lack memory: another filter is for later
-};
-
-/// Reused storage of the fits and of their searches; empty of meaning between frames.
-struct FitStorage {
-    SetScratch sets;
-    FitScratch fits;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> drawn;  // choose_proxies()
+    Jobs* jobs = nullptr;                    // threads that share the lights; null: the calling one does all
 };
 
 /// Most changes of a light's map size in one fit. The first follows the present maps' error. The second corrects for
@@ -45,7 +41,7 @@ inline constexpr std::uint32_t kMaxFits = 2 * (1 + kCountsTried) * kFitsPerCount
 /// Fit of one light: appends its views with their casters and records the choice in FittedViews::lights.
 class LightFit {
 public:
-    LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, FitStorage& storage,
+    LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, StageScratch& scratch,
              FittedViews& out);
 
     /// Fits for the request as it stands and replaces what an earlier run appended. `recount`: also compares other
@@ -80,7 +76,7 @@ private:
     const FitInputs& inputs_;
     const LightItem& light_;
     std::uint32_t index_;
-    FitStorage& storage_;
+    StageScratch& scratch_;
     FittedViews& out_;
     std::size_t first_view_, first_caster_;
     ArraySizes first_resized_;  // lengths of FittedViews::resized_sets without this light

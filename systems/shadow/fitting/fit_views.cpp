@@ -4,6 +4,7 @@
 
 #include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/frame/light_jobs.h"
 #include "systems/shadow/request/accuracy_target.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_choice.h"
@@ -16,14 +17,14 @@ namespace {
 class TargetFit {
 public:
     TargetFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, const LightFitHistory& held,
-              FitStorage& storage, FittedViews& out)
+              StageScratch& scratch, FittedViews& out)
         : scene_(scene),
           inputs_(inputs),
           light_(scene.lights[light]),
           index_(light),
           held_(held),
           choice_(out.lights[light]),
-          fit_(scene, inputs, light, storage, out),
+          fit_(scene, inputs, light, scratch, out),
           targets_(targets_of(light_.shadow)) {}
 
     /// Fits the light. Returns why it has no views; Reason::none: it has some.
@@ -131,39 +132,107 @@ private:
     AccuracyTargets targets_;
 };
 
-}  // namespace
-
-void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& storage, FittedViews& fitted,
-               History& next_history, const LightAccounts& accounts) {
-    const LightFitHistory none;
+void clear(const ReceiverCasterSets& sets, FittedViews& fitted) {
     fitted.views.clear();
     fitted.casters.clear();
     fitted.caster_meshes.clear();
     fitted.resized_sets.clear();
-    fitted.resized_sets.camera_frusta = inputs.sets.camera_frusta;
-    fitted.resized_sets.nearest_surface_m = inputs.sets.nearest_surface_m;
+    fitted.resized_sets.camera_frusta = sets.camera_frusta;
+    fitted.resized_sets.nearest_surface_m = sets.nearest_surface_m;
+}
+
+/// Gives the arrays of `fitted` room for as much as those of `all`.
+void reserve_as(const FittedViews& all, FittedViews& fitted) {
+    fitted.views.reserve(all.views.capacity());
+    fitted.casters.reserve(all.casters.capacity());
+    fitted.caster_meshes.reserve(all.caster_meshes.capacity());
+    reserve_as(all.resized_sets, fitted.resized_sets);
+}
+
+/// Appends one light's views, of `from`, to those of `to`.
+void append_light(const FittedViews& from, std::uint32_t light, FittedViews& to) {
+    FitChoice& choice = to.lights[light];
+    choice = from.lights[light];
+    if (choice.resized) choice.sets = append_sets(from.resized_sets, choice.sets, to.resized_sets);
+    choice.views.first = static_cast<std::uint32_t>(to.views.size());
+    for (const ShadowView& view : from.views_of(light)) {
+        const auto casters = from.casters_of(view), meshes = from.meshes_of(view);
+        ShadowView& there = to.views.emplace_back(view);
+        there.casters.first = static_cast<std::uint32_t>(to.casters.size());
+        to.casters.insert(to.casters.end(), casters.begin(), casters.end());
+        if (meshes.empty()) continue;
+        to.caster_meshes.resize(there.casters.first);
+        to.caster_meshes.insert(to.caster_meshes.end(), meshes.begin(), meshes.end());
+    }
+}
+
+/// Writes what each light begins with: its request and sets to `fitted`, its history to `next`. Lights that take no
+/// part have no history; the others are listed in `taking`.
+void begin_lights(const SceneSnapshot& scene, const FitInputs& inputs, FittedViews& fitted, History& next,
+                  std::vector<std::uint32_t>& taking) {
+    const LightFitHistory none;
     fitted.lights.assign(inputs.requests.size(), {});
-    next_history.lights.clear();
+    next.lights.clear();
+    taking.clear();
     for (std::uint32_t i = 0; i < inputs.requests.size(); ++i) {
-        LightStatus& status = accounts.statuses[i];
         FitChoice& choice = fitted.lights[i];
         choice.request = inputs.requests[i];
         choice.sets = inputs.sets.lights[i];
         if (choice.request.skip != Reason::none) continue;
+        const LightFitHistory* last = find(inputs.held, scene.lights[i].entity, next.lights.size());
+        LightFitHistory& history = next.lights.emplace_back(last ? *last : none);
+        history.light = scene.lights[i].entity;
+        history.rays.fell_back = choice.request.rays.fell_back;
+        taking.push_back(i);
+    }
+}
+
+/// Calls `fit` for each light that takes part, on several threads, and puts their views in the order of the lights.
+template <class Fit>
+void fit_on_threads(std::size_t threads, const FitInputs& inputs, const Fit& fit, StageStorage& storage,
+                    FittedViews& fitted) {
+    storage.results.resize(std::max(storage.results.size(), threads));
+    storage.thread_of.resize(fitted.lights.size());
+    for (ThreadResults& results : storage.results) {
+        clear(inputs.sets, results.fitted);
+        results.fitted.lights.resize(fitted.lights.size());
+    }
+    for_each_light(inputs.jobs, storage.taking.size(), [&](std::size_t job, std::size_t thread) {
+        const std::uint32_t light = storage.taking[job];
+        FittedViews& out = storage.results[thread].fitted;
+        storage.thread_of[light] = thread;
+        out.lights[light] = fitted.lights[light];
+        fit(job, thread, out);
+    });
+    for (const std::uint32_t light : storage.taking)
+        append_light(storage.results[storage.thread_of[light]].fitted, light, fitted);
+    for (ThreadResults& results : storage.results) reserve_as(fitted, results.fitted);  // any may fit most next time
+}
+
+}  // namespace
+
+void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, StageStorage& storage, FittedViews& fitted,
+               History& next_history, const LightAccounts& accounts) {
+    clear(inputs.sets, fitted);
+    begin_lights(scene, inputs, fitted, next_history, storage.taking);
+    const auto fit = [&](std::size_t job, std::size_t thread, FittedViews& out) {
+        const std::uint32_t i = storage.taking[job];
         const LightTimer time(accounts.cpu_us, i);
-        const LightFitHistory* last = find(inputs.held, scene.lights[i].entity, next_history.lights.size());
-        LightFitHistory& next = next_history.lights.emplace_back(last ? *last : none);
-        next.light = scene.lights[i].entity;
-        next.rays.fell_back = choice.request.rays.fell_back;
+        LightStatus& status = accounts.statuses[i];
+        LightFitHistory& next = next_history.lights[job];
+        FitChoice& choice = out.lights[i];
         if (!status.is_skipped()) {
             const LightFitHistory before = next;
             if (has_map(choice.request))
-                status.skip(TargetFit(scene, inputs, i, before, storage, fitted).run(next));
+                status.skip(TargetFit(scene, inputs, i, before, storage.scratch[thread], out).run(next));
             else if (choice.sets.casters.count == 0)
                 status.skip(Reason::no_caster);
         }
         if (choice.request.note != Reason::none) status.degrade(choice.request.note);
-    }
+    };
+    const std::size_t threads = threads_for(inputs.jobs, storage.taking.size());
+    if (threads > 1) return fit_on_threads(threads, inputs, fit, storage, fitted);
+    for (std::size_t job = 0; job < storage.taking.size(); ++job) fit(job, 0, fitted);
 }
 
 }  // namespace gnomon::shadow

@@ -90,10 +90,16 @@ inline void ReceiverCasterSets::clear() {
     outlines.clear();
 }
 
-/// Reused storage of the search for receivers and casters; its other contents are meaningless between two searches.
+/// Appends one light's sets, ranges of `from`, to the arrays of `to`. Returns their ranges there.
+LightSets append_sets(const ReceiverCasterSets& from, const LightSets& sets, ReceiverCasterSets& to);
+
+/// Gives the arrays of `sets` room for as much as those of `all`.
+void reserve_as(const ReceiverCasterSets& all, ReceiverCasterSets& sets);
+
+/// Reused storage of one thread's searches for receivers and casters; its contents are meaningless between two.
 struct SetScratch {
-    InstanceLayers layers;      // instances of the last select_sets()
-    IndexSet marks, receivers;  // sets of instances
+    const InstanceLayers* layers = nullptr;     // StageStorage::layers
+    IndexSet marks, receivers;                  // sets of instances
     std::vector<std::uint32_t> candidates;      // receivers that a camera sees, camera by camera
     std::vector<IndexRange> camera_candidates;  // range of `candidates` for each camera
     SplitScratch split;

@@ -90,12 +90,12 @@ FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light,
 LightFrustum aimed_frustum(const LightItem& light, const FarLampAim& aim) {
     const glm::dvec3 back = light.position_ws_m - aim.middle_ws_m;
     const double sine = aim.radius_m / glm::length(back);
-    LightFrustum opening;
-    opening.axes = math::basis_from_back(back);
-    opening.high = glm::dvec2(sine / std::sqrt(1.0 - sine * sine));
-    opening.low = -opening.high;
-    opening.held_as = kAimedView;
-    return opening;
+    LightFrustum frustum;
+    frustum.axes = math::basis_from_back(back);
+    frustum.high = glm::dvec2(sine / std::sqrt(1.0 - sine * sine));
+    frustum.low = -frustum.high;
+    frustum.held_as = kAimedView;
+    return frustum;
 }
 
 }  // namespace gnomon::shadow

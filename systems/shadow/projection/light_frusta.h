@@ -26,15 +26,15 @@ struct LightFrusta {
 };
 
 /// Adds the light frusta of a light that is not aimed.
-using FrustaFunction = void (*)(const LightItem& light, const ShadowRequest& request, LightFrusta& openings);
+using FrustaFunction = void (*)(const LightItem& light, const ShadowRequest& request, LightFrusta& frusta);
 
 /// Adds one frustum around the cone, at most kWidestMap_rad to each side. A wide spot has five cube faces along its own
 /// axes instead, limited to the part that the cone can light. During a transition (spot_cube_transition.h) it has both,
 /// the faces first.
-void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightFrusta& openings);
+void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightFrusta& frusta);
 
 /// Adds the six faces of a cube, in the order of OpenGL's table, turned by cube_turn(). Each has a border for the
 /// texels that a filter reads beyond its seams.
-void add_cube_frusta(const LightItem& light, const ShadowRequest& request, LightFrusta& openings);
+void add_cube_frusta(const LightItem& light, const ShadowRequest& request, LightFrusta& frusta);
 
 }  // namespace gnomon::shadow

@@ -69,9 +69,9 @@ std::uint32_t target_size_px(std::uint32_t size_px, bool held, double predicted_
     const double needed_px = std::ceil(size_px * of_texels_px(predicted_px) / target_px);
     if (!(needed_px < most_px)) return most_px;
     const auto least_px = static_cast<std::uint32_t>(std::max(needed_px, 1.0));
-    const std::uint32_t wish_px = std::min((least_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
-    const bool stays = held && wish_px <= size_px && size_px <= most_px && size_px < kSizeHysteresis * wish_px;
-    return stays ? size_px : wish_px;
+    const std::uint32_t wanted_px = std::min((least_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
+    const bool stays = held && wanted_px <= size_px && size_px <= most_px && size_px < kSizeHysteresis * wanted_px;
+    return stays ? size_px : wanted_px;
 }
 
 bool meets_target(double predicted_px, double target_px) { return of_texels_px(predicted_px) <= target_px; }

@@ -59,7 +59,7 @@ bool leaves_count(const LightItem& light, const ShadowRequest& request) {
 
 /// Sets projection and depth range of the light's views. Notes and ignores unusable settings.
 void decide_projection(const LightItem& light, ShadowRequest& request) {
-    const LightProjection wish = light.tuning.projection.kind;
+    const LightProjection requested = light.tuning.projection.kind;
     const bool sun = light_facts(light.kind).parallel;
     if (sun) decide_cascades(light, request);
     if (is_range(light.tuning.projection)) {
@@ -71,10 +71,10 @@ void decide_projection(const LightItem& light, ShadowRequest& request) {
     if (sun && !is_eye(light.tuning.projection)) {
         request.note = Reason::eye_invalid;
         request.projection.near_m = request.projection.far_m = 0.0;  // they are distances from the eye
-    } else if (sun && wish == LightProjection::perspective) {
+    } else if (sun && requested == LightProjection::perspective) {
         request.projection.perspective_sun = true;
         request.map.view_count = 1;
-    } else if (!sun && wish == LightProjection::orthographic) {
+    } else if (!sun && requested == LightProjection::orthographic) {
         request.note = Reason::projection_unsupported;
     }
 }
@@ -122,11 +122,12 @@ float size_target_px(const LightItem& light, const ShadowRequest& request) {
 void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
                        const LightFitHistory* held, ShadowRequest& request) {
     const std::uint32_t held_px = held ? held->size.map_px : 0;
-    const std::uint32_t asked_px = light.shadow.resolution_px;
-    request.limits.max_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
-                                         : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
-                                                                size_target_px(light, request), limit_px);
-    if (asked_px > 0 && request.limits.max_px != asked_px) request.note = Reason::resolution_clamped;
+    const std::uint32_t requested_px = light.shadow.resolution_px;
+    request.limits.max_px = requested_px > 0
+                                ? std::clamp(requested_px, std::min(kLeastRequested_px, limit_px), limit_px)
+                                : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
+                                                       size_target_px(light, request), limit_px);
+    if (requested_px > 0 && request.limits.max_px != requested_px) request.note = Reason::resolution_clamped;
     set_resolution(light, request.limits.max_px, request);
     if (held_px > 0 && held_px < request.limits.max_px && adapts_to_target(light, request))
         set_resolution(light, held_px, request);
@@ -172,10 +173,10 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
                                    std::uint32_t limit_px) {
     const double finest_px = std::min(max_error_px > 0.0f ? static_cast<double>(max_error_px) : 1.0, 1.0);
     const std::uint32_t most_px = std::min(limit_px, kLargestAutomatic_px);
-    const double wish_px =
+    const double wanted_px =
         std::ceil(std::max(viewport_px.x, viewport_px.y) * static_cast<double>(texels_per_pixel) / finest_px);
     const auto bounded_px =
-        static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
+        static_cast<std::uint32_t>(std::clamp(wanted_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
     return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
 }
 

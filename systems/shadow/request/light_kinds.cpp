@@ -42,13 +42,13 @@ std::span<const LightKindRow> light_kind_table() { return kKindRows; }
 const LightKindRow& light_kind_row(LightKind kind) { return kKindRows[static_cast<std::size_t>(kind)]; }
 
 LightFrusta light_frusta(const LightItem& light, const ShadowRequest& request) {
-    LightFrusta openings;
+    LightFrusta frusta;
     const FrustaFunction add = light_kind_row(light.kind).frusta;
     if (request.projection.aim.used)
-        openings.items[openings.count++] = aimed_frustum(light, request.projection.aim);
+        frusta.items[frusta.count++] = aimed_frustum(light, request.projection.aim);
     else if (add)
-        add(light, request, openings);
-    return openings;
+        add(light, request, frusta);
+    return frusta;
 }
 
 gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request) {

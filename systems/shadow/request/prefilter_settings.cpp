@@ -14,14 +14,14 @@ namespace {
 static_assert(kMomentWeights == kMostFilterSize / 2 + 1);
 constexpr float kCutOff_deviations = 2.0f;
 
-/// Returns the effective exponent, at most `most`. `asked` 0, negative or NaN: `usual`. Sets `cut` if a value other
+/// Returns the effective exponent, at most `most`. `requested` 0, negative or NaN: `usual`. Sets `cut` if a value other
 /// than 0 was replaced.
-float exponent(float asked, float usual, float most, bool& cut) {
-    if (asked == 0.0f || most == 0.0f) return std::min(usual, most);
-    const bool good = asked > 0.0f && asked <= most;
+float exponent(float requested, float usual, float most, bool& cut) {
+    if (requested == 0.0f || most == 0.0f) return std::min(usual, most);
+    const bool good = requested > 0.0f && requested <= most;
     cut = cut || !good;
-    if (good) return asked;
-    return asked > most ? most : std::min(usual, most);
+    if (good) return requested;
+    return requested > most ? most : std::min(usual, most);
 }
 
 /// Largest footprint of a pixel, texels. A larger one needs too much border and bias.

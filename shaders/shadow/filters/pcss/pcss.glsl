@@ -117,11 +117,11 @@ float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float befo
     return known > 0.0 ? lit / known : 1.0;
 }
 
-// Returns a penumbra around the edge that sixteen texels vote for. If not `asked`, it may leave the votes out.
-float lit_by_votes(ShadowPoint point, float radius_texel, bool asked) {
+// Returns a penumbra around the edge that sixteen texels vote for. If not `wanted`, it may leave the votes out.
+float lit_by_votes(ShadowPoint point, float radius_texel, bool wanted) {
     FourTexels four = four_texels(point);
     bool agreed = (four.all_lit || four.all_dark) && radius_texel < kAgreed_texel;
-    float votes = lit_by_sixteen(point, four.place, four.corner, asked && !agreed ? 16 : 0);
+    float votes = lit_by_sixteen(point, four.place, four.corner, wanted && !agreed ? 16 : 0);
     if (agreed) return four.all_lit ? 1.0 : 0.0;
     if (radius_texel == 0.0) return votes >= 0.0 ? 1.0 : 0.0;
     float half_width = kDiskStep * radius_texel;

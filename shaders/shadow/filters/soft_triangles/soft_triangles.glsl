@@ -111,11 +111,11 @@ StartTexels find_casters(ShadowPoint point, SourcePlaces source, float share) {
 }
 
 // Returns places that texels hide which stand about `before` the receiver, in depth.
-uint hidden_by_depth(ShadowPoint point, StartTexels found, bool asked) {
+uint hidden_by_depth(ShadowPoint point, StartTexels found, bool wanted) {
     const float kSameCaster = 0.7;   // least share of the mean height at which a caster counts: it may lean away
     uint hidden = 0u;
     int i = 0;
-    if (asked) do {
+    if (wanted) do {
         vec2 at = source_place_at(i);
         float stands = stands_in_map(point, found.place, found.before * on_map(found.spiral, at));
         hidden |= stands > found.before * min(length(at), kSameCaster) ? 1u << i : 0u;

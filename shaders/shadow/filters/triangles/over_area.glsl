@@ -47,12 +47,12 @@ OuterTexels outer_texels(ShadowPoint point, AreaPlaces area, vec2 place) {
 // Places by the texels above them: bits of places with a texel that may show what darkens them, or does so beyond doubt.
 struct DarkTexels { uint may, are; };
 
-DarkTexels dark_texels(ShadowPoint point, AreaPlaces area, vec2 place, bool asked) {
+DarkTexels dark_texels(ShadowPoint point, AreaPlaces area, vec2 place, bool wanted) {
     vec2 right = texels_moved(point, area.right), up = texels_moved(point, area.up), slopes = abs(point.slope);
     float own = kOwnSurface_texel * (slopes.x + slopes.y);
     DarkTexels dark = DarkTexels(0u, 0u);
     int i = 0;
-    if (asked) do {
+    if (wanted) do {
         vec2 at = place_in_area(i), middle = floor(place + right * at.x + up * at.y) + 0.5;
         float stored = shadow_depth(point, middle), above = stored - (point.reference + dot(point.slope, middle - place));
         bool may = above > own || (above < -own && stored > point.reference);

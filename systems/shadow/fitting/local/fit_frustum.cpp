@@ -48,12 +48,12 @@ PerspectiveRange depth_range(const FitInput& input, const FrustumContent& conten
 
 }  // namespace
 
-bool fit_frustum(const FitInput& input, const LightFrustum& opening, const ReceiverHull& receiver_hull,
+bool fit_frustum(const FitInput& input, const LightFrustum& frustum, const ReceiverHull& receiver_hull,
                  std::vector<ShadowView>& views) {
-    const TangentRectangle whole{opening.low, opening.high};
+    const TangentRectangle whole{frustum.low, frustum.high};
     FrustumContent content = visible_content(input, receiver_hull, whole);
     if (!content.receivers) return true;
-    const ViewFitHistory& held = input.held.views[opening.held_as];
+    const ViewFitHistory& held = input.held.views[frustum.held_as];
     ViewFitHistory next = held;
     const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
     const bool has_size = needs_distances(input.request.map.filtering);
@@ -64,12 +64,12 @@ bool fit_frustum(const FitInput& input, const LightFrustum& opening, const Recei
     const PerspectiveRange range = overridden(input.request.projection, depth_range(input, content, held, next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
-    input.next.views[opening.held_as] = next;
+    input.next.views[frustum.held_as] = next;
     const double size_px = input.request.map.resolution_px;
     const auto border_texel = static_cast<double>(reach_texel(input, crop, range));
-    ShadowView view = perspective_view(receiver_hull.origin_ws_m, opening.axes,
+    ShadowView view = perspective_view(receiver_hull.origin_ws_m, frustum.axes,
                                        with_border(crop, size_px, border_texel), range, size_px, anchored_m(input));
-    view.layer = opening.layer;
+    view.layer = frustum.layer;
     view.held = true;
     views.push_back(view);
     return true;

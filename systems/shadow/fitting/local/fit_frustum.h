@@ -10,7 +10,7 @@ namespace gnomon::shadow {
 /// seen of the receivers. Depth reaches from the nearest caster or receiver to the farthest receiver. Both are kept by
 /// hysteresis (fit_hysteresis.h), so that a map stays valid while the camera walks. Returns false if the range is
 /// empty.
-bool fit_frustum(const FitInput& input, const LightFrustum& opening, const ReceiverHull& receiver_hull,
+bool fit_frustum(const FitInput& input, const LightFrustum& frustum, const ReceiverHull& receiver_hull,
                  std::vector<ShadowView>& views);
 
 }  // namespace gnomon::shadow

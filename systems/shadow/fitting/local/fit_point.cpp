@@ -19,10 +19,10 @@ namespace {
 
 constexpr double kOneTap_texel = 0.5;  // radius of a filter that reads the nearest texel only
 
-ShadowView face_view(const FitInput& input, const ReceiverHull& receiver_hull, const LightFrustum& opening,
+ShadowView face_view(const FitInput& input, const ReceiverHull& receiver_hull, const LightFrustum& frustum,
                      const PerspectiveRange& range) {
-    const std::uint32_t face = opening.layer;
-    ShadowView view = perspective_view(receiver_hull.origin_ws_m, opening.axes, TangentRectangle{}, range,
+    const std::uint32_t face = frustum.layer;
+    ShadowView view = perspective_view(receiver_hull.origin_ws_m, frustum.axes, TangentRectangle{}, range,
                                        input.request.map.resolution_px);
     view.projection = ViewProjection::cube_face;
     view.layer = face;
@@ -33,14 +33,14 @@ ShadowView face_view(const FitInput& input, const ReceiverHull& receiver_hull, c
 }  // namespace
 
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
-    const LightFrusta openings = light_frusta(input.light, input.request);
+    const LightFrusta frusta = light_frusta(input.light, input.request);
     input.next.aim = input.request.projection.aim;
-    if (input.request.projection.aim.used) return fit_frustum(input, openings.items[0], input.hulls[0], views);
+    if (input.request.projection.aim.used) return fit_frustum(input, frusta.items[0], input.hulls[0], views);
     std::array<FrustumContent, 6> faces;
     double nearest_m = HUGE_VAL, farthest_m = 0.0;
     bool any = false;
-    for (std::uint32_t i = 0; i < openings.count; ++i) {
-        const TangentRectangle whole{openings.items[i].low, openings.items[i].high};
+    for (std::uint32_t i = 0; i < frusta.count; ++i) {
+        const TangentRectangle whole{frusta.items[i].low, frusta.items[i].high};
         faces[i] = visible_content(input, input.hulls[i], whole);
         if (!faces[i].receivers) continue;
         include_casters(input, input.hulls[i], whole, faces[i]);
@@ -58,9 +58,9 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     input.next.views[0] = next;
     // A filter that blends texels reads across seams. A face that is seen but has no caster must then be empty.
     const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
-    for (std::uint32_t face = 0; face < openings.count; ++face)
+    for (std::uint32_t face = 0; face < frusta.count; ++face)
         if (faces[face].receivers && (faces[face].casters || blends))
-            views.push_back(face_view(input, input.hulls[face], openings.items[face], range));
+            views.push_back(face_view(input, input.hulls[face], frusta.items[face], range));
     return true;
 }
 

@@ -10,9 +10,9 @@ namespace gnomon::shadow {
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {
     input.next.cone = next_spot_cube_transition(input.light.outer_cone_rad, input.held.cone);
     input.next.aim = input.request.projection.aim;
-    const LightFrusta openings = light_frusta(input.light, input.request);
-    for (std::uint32_t i = 0; i < openings.count; ++i)
-        if (!fit_frustum(input, openings.items[i], input.hulls[i], views)) return false;
+    const LightFrusta frusta = light_frusta(input.light, input.request);
+    for (std::uint32_t i = 0; i < frusta.count; ++i)
+        if (!fit_frustum(input, frusta.items[i], input.hulls[i], views)) return false;
     return true;
 }
 

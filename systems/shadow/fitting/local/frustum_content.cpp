@@ -11,15 +11,15 @@ namespace gnomon::shadow {
 namespace {
 
 /// Returns the four sides, the light's own plane and a far plane at `end_m`.
-std::array<math::Plane, 6> planes_of(const ReceiverHull& receiver_hull, const TangentRectangle& opening, double end_m) {
+std::array<math::Plane, 6> planes_of(const ReceiverHull& receiver_hull, const TangentRectangle& frustum, double end_m) {
     const auto plane = [&](const glm::dvec3& normal, double inset_m) {
         return math::Plane{normal, -glm::dot(normal, receiver_hull.origin_ws_m) - inset_m};
     };
     const glm::dvec3 &u = receiver_hull.axes[0], &v = receiver_hull.axes[1], &back = receiver_hull.axes[2];
-    return {plane(u + opening.low.x * back, 0.0),
-            plane(-u - opening.high.x * back, 0.0),
-            plane(v + opening.low.y * back, 0.0),
-            plane(-v - opening.high.y * back, 0.0),
+    return {plane(u + frustum.low.x * back, 0.0),
+            plane(-u - frustum.high.x * back, 0.0),
+            plane(v + frustum.low.y * back, 0.0),
+            plane(-v - frustum.high.y * back, 0.0),
             plane(-back, 0.0),
             plane(back, -end_m)};
 }
@@ -34,7 +34,7 @@ double nearest_m(const ReceiverHull& receiver_hull, const math::Aabb& box_ws) {
 }  // namespace
 
 FrustumContent visible_content(const FitInput& input, const ReceiverHull& receiver_hull,
-                               const TangentRectangle& opening) {
+                               const TangentRectangle& frustum) {
     FrustumContent content;
     for (const glm::dvec3& p_ws : input.points_of(receiver_hull)) {
         const glm::dvec3 p = (p_ws - receiver_hull.origin_ws_m) * receiver_hull.axes;
@@ -46,16 +46,16 @@ FrustumContent visible_content(const FitInput& input, const ReceiverHull& receiv
         const glm::dvec2 tangent = glm::dvec2(p) / z_m;
         const bool directed = z_m > 0.0;
         content.footprint.low =
-            glm::min(content.footprint.low, directed ? glm::clamp(tangent, opening.low, opening.high) : opening.low);
+            glm::min(content.footprint.low, directed ? glm::clamp(tangent, frustum.low, frustum.high) : frustum.low);
         content.footprint.high =
-            glm::max(content.footprint.high, directed ? glm::clamp(tangent, opening.low, opening.high) : opening.high);
+            glm::max(content.footprint.high, directed ? glm::clamp(tangent, frustum.low, frustum.high) : frustum.high);
     }
     return content;
 }
 
-void include_casters(const FitInput& input, const ReceiverHull& receiver_hull, const TangentRectangle& opening,
+void include_casters(const FitInput& input, const ReceiverHull& receiver_hull, const TangentRectangle& frustum,
                      FrustumContent& content) {
-    const auto planes = planes_of(receiver_hull, opening, content.farthest_m);
+    const auto planes = planes_of(receiver_hull, frustum, content.farthest_m);
     std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     for (const std::uint32_t c : input.casters) {
         const math::Aabb& box_ws = input.scene.instances[c].bounds_ws;

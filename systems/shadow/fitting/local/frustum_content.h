@@ -14,13 +14,13 @@ struct FrustumContent {
     double nearest_m = HUGE_VAL, farthest_m = 0.0;  // distances along the axis; farthest: of the receivers
 };
 
-/// Finds the receivers of a light frustum within `opening`.
+/// Finds the receivers of a light frustum within `frustum`.
 FrustumContent visible_content(const FitInput& input, const ReceiverHull& receiver_hull,
-                               const TangentRectangle& opening);
+                               const TangentRectangle& frustum);
 
-/// Adds the casters within `opening` of the light frustum's axes, no farther than the farthest receiver. Sets whether
+/// Adds the casters within `frustum` of the light frustum's axes, no farther than the farthest receiver. Sets whether
 /// there are any, and the distance to the nearest.
-void include_casters(const FitInput& input, const ReceiverHull& receiver_hull, const TangentRectangle& opening,
+void include_casters(const FitInput& input, const ReceiverHull& receiver_hull, const TangentRectangle& frustum,
                      FrustumContent& content);
 
 }  // namespace gnomon::shadow

@@ -18,7 +18,7 @@ protected:
     static constexpr glm::dvec3 kLight_m{0.0, 20.0, 0.0};
     const math::Aabb receiver{glm::dvec3(-1.0, 0.0, -1.0), glm::dvec3(1.0, 0.5, 1.0)};
     // Tangents of 90 degrees, looking down.
-    const LightFrustum opening{math::basis_from_back({0.0, 1.0, 0.0}), glm::dvec2(-1.0), glm::dvec2(1.0)};
+    const LightFrustum frustum{math::basis_from_back({0.0, 1.0, 0.0}), glm::dvec2(-1.0), glm::dvec2(1.0)};
     std::vector<glm::dvec2> outlines;
     SetScratch scratch;
 
@@ -29,7 +29,7 @@ protected:
     }
     SweptVolume from_lamp() {
         const auto points = math::corners(receiver);
-        const ReceiverHull receiver_hull = frustum_hull(kLight_m, opening, points, outlines, scratch);
+        const ReceiverHull receiver_hull = frustum_hull(kLight_m, frustum, points, outlines, scratch);
         return swept_volume(receiver_hull, outlines, {}, 0.0);
     }
     static math::Aabb cube(const glm::dvec3& centre, double half = 0.1) { return {centre - half, centre + half}; }
@@ -79,8 +79,8 @@ TEST_F(SweptVolumeTest, FlatAndPointlikeReceiversHaveOne) {
         for (const bool sun : {true, false}) {
             outlines.clear();
             const auto points = math::corners({-half, half});
-            const ReceiverHull receiver_hull = sun ? directional_hull(opening.axes, points, outlines, scratch)
-                                  : frustum_hull(kLight_m, opening, points, outlines, scratch);
+            const ReceiverHull receiver_hull = sun ? directional_hull(frustum.axes, points, outlines, scratch)
+                                                   : frustum_hull(kLight_m, frustum, points, outlines, scratch);
             const SweptVolume v = swept_volume(receiver_hull, outlines, {}, 0.0);
             EXPECT_TRUE(touches(v, cube({0.0, 5.0, 0.0})));
             EXPECT_FALSE(touches(v, cube({2.0, 5.0, 0.0})));
@@ -91,14 +91,14 @@ TEST_F(SweptVolumeTest, FlatAndPointlikeReceiversHaveOne) {
 TEST_F(SweptVolumeTest, ALampOnItsReceiverLooksAllAround) {
     outlines.clear();
     const auto points = math::corners({kLight_m + glm::dvec3(-1.0, -1.0, -1.0), kLight_m + glm::dvec3(1.0, 0.0, 1.0)});
-    const ReceiverHull receiver_hull = frustum_hull(kLight_m, opening, points, outlines, scratch);
+    const ReceiverHull receiver_hull = frustum_hull(kLight_m, frustum, points, outlines, scratch);
     ASSERT_EQ(receiver_hull.outline.count, 4u);
     EXPECT_TRUE(touches(swept_volume(receiver_hull, outlines, {}, 0.0), cube(kLight_m + glm::dvec3(0.85, -0.95, 0.85))));
 }
 
 TEST_F(SweptVolumeTest, PointsAtTheLampItselfAreNoReceivers) {
     const glm::dvec3 points[] = {kLight_m, kLight_m};
-    const ReceiverHull receiver_hull = frustum_hull(kLight_m, opening, points, outlines, scratch);
+    const ReceiverHull receiver_hull = frustum_hull(kLight_m, frustum, points, outlines, scratch);
     EXPECT_EQ(receiver_hull.outline.count, 0u);
     EXPECT_EQ(receiver_hull.reach_m, 0.0);
 }
@@ -114,8 +114,9 @@ TEST_F(SweptVolumeTest, PointsThatAreOneButForRoundingAddNoPlane) {
                 points.push_back(p + far_away);
                 if (twice) points.push_back(p + far_away + glm::dvec3(1.2e-10, -2.4e-10, 2.4e-10));
             }
-            const ReceiverHull receiver_hull = sun ? directional_hull(math::basis_from_back({0.3, 1.0, 0.2}), points, outlines, scratch)
-                                  : frustum_hull(kLight_m + far_away, opening, points, outlines, scratch);
+            const ReceiverHull receiver_hull =
+                sun ? directional_hull(math::basis_from_back({0.3, 1.0, 0.2}), points, outlines, scratch)
+                    : frustum_hull(kLight_m + far_away, frustum, points, outlines, scratch);
             planes[twice ? 1 : 0] = swept_volume(receiver_hull, outlines, {}, 0.0).plane_count;
         }
         EXPECT_EQ(planes[0], planes[1]) << (sun ? "sun" : "lamp");

@@ -17,13 +17,13 @@ std::uint32_t chosen(std::vector<double> predicted_px, std::vector<std::uint64_t
     return choose_cascades(trials, held, 1.0);
 }
 
-TEST(ContractCascades, AreTheFewestThatKeepTheWordWithNoMoreTexels) {
+TEST(ContractCascades, AreTheFewestThatMeetTheTargetWithNoMoreTexels) {
     EXPECT_EQ(chosen({1.9, 1.9, 1.9}, {400, 200, 400}), 1u);
     EXPECT_EQ(chosen({1.9, 2.1, 1.9}, {401, 200, 400}), 4u);
     EXPECT_EQ(chosen({1.9, 1.9, 1.9}, {401, 300, 400}), 2u);
 }
 
-TEST(ContractCascades, StayWhileTheyTakeLessThanTwiceTheTexelsAndKeepTheWord) {
+TEST(ContractCascades, StayWhileTheyTakeLessThanTwiceTheTexelsAndMeetTheTarget) {
     EXPECT_EQ(chosen({2.1, 1.9, 1.9}, {1, 799, 400}, 2), 2u);
     EXPECT_EQ(chosen({2.1, 1.9, 1.9}, {1, 800, 400}, 2), 4u);
     EXPECT_EQ(chosen({2.1, 2.1, 1.9}, {1, 799, 400}, 2), 4u);
@@ -31,7 +31,7 @@ TEST(ContractCascades, StayWhileTheyTakeLessThanTwiceTheTexelsAndKeepTheWord) {
 }
 
 /// Counts errors beyond a pixel: that pixel is the picture's own, and no map takes it away.
-TEST(ContractCascades, WhereNoneKeepTheWordEachDoublingHalvesTheErrorOfTheSameTexelsOrIsLeft) {
+TEST(ContractCascades, WhereNoneMeetTheTargetEachDoublingHalvesTheErrorOfTheSameTexelsOrIsLeft) {
     // Twice as many maps of one size have twice the texels, which of themselves divide the error by the root of 2.
     const std::vector<std::uint64_t> same{100, 200, 400};
     EXPECT_EQ(chosen({17.0, 6.7, 3.1}, same), 1u);

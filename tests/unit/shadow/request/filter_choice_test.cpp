@@ -20,7 +20,7 @@ constexpr AccuracyTargets kOfEdges{2.0, 0.0}, kOfWidth{0.0, 2.0}, kBothTargets{2
 /// Maps with that error of edges, beside the picture's own pixel, and that width of what they resolve.
 constexpr MapAccuracy stated_maps(double edge_px, double resolved_px) { return {edge_px + 1.0, 1.0, resolved_px}; }
 
-TEST(FilterChoice, IsTheUsualOneAsLongAsItsMapsKeepTheWord) {
+TEST(FilterChoice, IsTheUsualOneAsLongAsItsMapsMeetTheTarget) {
     EXPECT_EQ(chosen_filter({}, stated_maps(2.0, 9.0), kOfEdges), kDefaultFilter);
     EXPECT_EQ(chosen_filter({}, stated_maps(2.01, 0.0), kOfEdges), kExactFilter);
     EXPECT_EQ(chosen_filter({}, stated_maps(9.0, 2.0), kOfWidth), kDefaultFilter);
@@ -152,7 +152,7 @@ protected:
     }
 };
 
-TEST_P(FittedFilter, IsTheKeepingOneExactlyWhereTheUsualOnesMapsDoNotKeepTheWord) {
+TEST_P(FittedFilter, IsExactWhereTheUsualOnesMapsMissTheTarget) {
     RandomScene random(print_seed());
     int usual = 0, keeping = 0, more_cascades = 0;
     for (int i = 0; i < 100; ++i)
