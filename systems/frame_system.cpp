@@ -57,15 +57,15 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
     gpu_scene_.update_meshes(commands_);
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_, gpu_scene_.lacking_meshes());
     report_.dropped = snapshot_.dropped;
-    const bool held = frozen_.has_value() && settings.freeze_fits;
-    if (!held) lighting_->collect_depths(feedback_.sampled_depths);
+    const bool frozen = frozen_.has_value() && settings.freeze_fits;
+    if (!frozen) lighting_->collect_depths(feedback_.sampled_depths);
     if (!gpu_scene_.update(snapshot_, commands_))
         for (const InstanceItem& item : snapshot_.instances)
             if (item.gpu_slot >= gpu_scene_.capacity())
                 report_.dropped.push_back({item.entity, name_of(world, item.entity), DropReason::instances_full});
     feedback_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
-    const bool reads_back = record_picture(shadows, settings, held);
+    const bool reads_back = record_picture(shadows, settings, frozen);
     if (has_picture_ && settings.present) {
         const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
                            static_cast<std::int32_t>(settings.viewport_px.y)};
@@ -86,14 +86,14 @@ void FrameSystem::run(ecs::Registry& world, const FrameSettings& settings) {
 }
 
 /// Records the picture, or what a still one lacks, and reports it. Returns whether the GPU's measurements are awaited.
-bool FrameSystem::record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool held) {
+bool FrameSystem::record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool frozen) {
     using Draws = picture::PictureSamples::Draws;
     const bool unchanged = changes_->unchanged(snapshot_, shadows, settings) && has_picture_;
     const Draws draws = samples_->begin(unchanged, settings.still_samples, settings.viewport_px, settings.transparent);
     const glm::dvec2 jitter_px = samples_->place_px();
     const bool is_middle = jitter_px == glm::dvec2(0.0);  // measurements of other samples would move fits
-    const bool wants_depths = !held && shadows_->wants_sampled_depths(snapshot_);
-    if (!wants_depths && !held) feedback_.sampled_depths = {};  // outdated when needed next
+    const bool wants_depths = !frozen && shadows_->wants_sampled_depths(snapshot_);
+    if (!wants_depths && !frozen) feedback_.sampled_depths = {};  // outdated when needed next
     const bool wants_exposure =
         settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->contribution_culling().wants_exposure();
     if (!wants_exposure) lighting_->forget_exposure();

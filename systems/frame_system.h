@@ -90,7 +90,7 @@ private:
                 GpuScene scene);
     std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
-    bool record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool held);
+    bool record_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings, bool frozen);
     void finish_picture(const shadow::ShadowFrame& shadows, const FrameSettings& settings);
 
     gl::Device& device_;

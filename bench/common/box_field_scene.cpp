@@ -44,8 +44,8 @@ SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m) {
     return scene;
 }
 
-shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages, const shadow::LightFitHistory& held,
-                           shadow::LightFitHistory& next) {
+shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages,
+                           const shadow::LightFitHistory& previous, shadow::LightFitHistory& next) {
     const shadow::ReceiverCasterSets& sets = stages.frame.sets;
     const shadow::LightSetsView light{sets, sets.lights[0]};
     const shadow::ShadowRequest& request = stages.frame.requests[0];
@@ -61,7 +61,7 @@ shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages
             .reach_texel = request.map.filtering.widest_texel,
             .sampled_depths = stages.sampled_depths,
             .scratch = stages.storage.scratch.front().fits,
-            .held = held,
+            .previous = previous,
             .next = next};
 }
 

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kPlainMeshes = 50;
 SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m);
 
 /// Returns what a fit of the only light gets after the sets are found. Refers to all four.
-shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages, const shadow::LightFitHistory& held,
-                           shadow::LightFitHistory& next);
+shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages,
+                           const shadow::LightFitHistory& previous, shadow::LightFitHistory& next);
 
 }  // namespace gnomon::bench

@@ -72,12 +72,12 @@ void fit(benchmark::State& state) {
     shadow::FitStages stages;
     stages.decide(scene);
     stages.select(scene);
-    shadow::LightFitHistory held, next;
-    const shadow::FitInput input = fit_input(scene, stages, held, next);
+    shadow::LightFitHistory previous, next;
+    const shadow::FitInput input = fit_input(scene, stages, previous, next);
     std::vector<shadow::ShadowView> views;
     for (auto _ : state) {
         views.clear();
-        next = held;
+        next = previous;
         benchmark::DoNotOptimize(shadow::light_kind_row(kind_of(state)).fit(input, views));
     }
     note(state, stages);

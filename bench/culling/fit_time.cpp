@@ -67,8 +67,8 @@ Spread measure(const Kind& kind, std::size_t receivers, std::size_t casters) {
     shadow::FitStages stages;
     stages.decide(scene);
     stages.select(scene);
-    shadow::LightFitHistory held, next;
-    const shadow::FitInput input = fit_input(scene, stages, held, next);
+    shadow::LightFitHistory previous, next;
+    const shadow::FitInput input = fit_input(scene, stages, previous, next);
     std::vector<shadow::ShadowView> views;
     const ConsumerItem& camera = scene.consumers[0];
     const glm::dmat3 basis = math::basis_from_back(scene.lights[0].rotation_ws[2]);
@@ -76,7 +76,7 @@ Spread measure(const Kind& kind, std::size_t receivers, std::size_t casters) {
     shadow::OrthographicBox box;
     const auto fit = [&] {
         views.clear();
-        next = held;
+        next = previous;
         return kind.whole_light ? shadow::light_kind_row(kind.kind).fit(input, views)
                                 : shadow::cascade_fit(kind.fit)(slice, box);
     };

@@ -14,7 +14,7 @@ namespace gnomon::bench {
 namespace {
 
 constexpr std::uint32_t kSuns = 4, kCascades = 4, kSpots = 24, kPoints = 4;
-constexpr double kSight_m = 60.0, kRange_m = 15.0, kStep_m = 0.05;
+constexpr double kNearSight_m = 60.0, kLampRange_m = 15.0, kCameraStep_m = 0.05;
 
 /// Returns the plain with the lights of 64 views: lamps stand before the camera, within its sight.
 SceneSnapshot plain_of_64_views(std::int64_t boxes, double sight_m) {
@@ -35,7 +35,7 @@ SceneSnapshot plain_of_64_views(std::int64_t boxes, double sight_m) {
         light.rotation_ws = math::basis_from_back(glm::dvec3(number(-0.5, 0.5), 1.0, number(-0.5, 0.5)));
         if (i >= kSuns) {
             light.position_ws_m = camera_m + glm::dvec3(number(-30.0, 30.0), number(-5.0, 0.0), -number(10.0, 50.0));
-            light.range_m = kRange_m;
+            light.range_m = kLampRange_m;
         }
         scene.lights.push_back(light);
     }
@@ -47,18 +47,18 @@ void run(benchmark::State& state, double sight_m) {
     Workers workers(static_cast<std::size_t>(state.range(1)));
     shadow::FitStages stages;
     stages.jobs = &workers;
-    shadow::History held;
-    double step_m = kStep_m;
+    shadow::History previous;
+    double step_m = kCameraStep_m;
     for (auto _ : state) {
         state.PauseTiming();
         scene.consumers.front().position_ws_m.x += step_m;
         step_m = -step_m;
-        stages.decide(scene, held);
+        stages.decide(scene, previous);
         state.ResumeTiming();
         stages.select(scene);
-        stages.fit(scene, held);
+        stages.fit(scene, previous);
         state.PauseTiming();
-        std::swap(held, stages.frame.next_history);
+        std::swap(previous, stages.frame.next_history);
         state.ResumeTiming();
     }
     state.counters["views"] = static_cast<double>(stages.frame.fitted.views.size());
@@ -71,7 +71,7 @@ void run(benchmark::State& state, double sight_m) {
 
 std::array<ViewsBenchmark, 2> views_benchmarks() {
     return {{{"views_64_all_seen", [](benchmark::State& state) { run(state, 0.0); }},
-             {"views_64_sight_60_m", [](benchmark::State& state) { run(state, kSight_m); }}}};
+             {"views_64_sight_60_m", [](benchmark::State& state) { run(state, kNearSight_m); }}}};
 }
 
 void read_boxes(benchmark::State& state) {

@@ -93,7 +93,7 @@ Result<FramesAgainst> measure_frames_against(Stage& stage, std::span<const std::
     times.other_settings.assign(other_settings.begin(), other_settings.end());
     stage.device().set_timing(gl::TimingMode::off);  // finishing around every pass would slow the frame itself
     std::array<TimedRounds, kPairs.size()> own, other;
-    for (const Pair& pair : kPairs) times.held.push_back({pair.words, pair.key, {}, {}});
+    for (const Pair& pair : kPairs) times.rows.push_back({pair.words, pair.key, {}, {}});
     for (std::uint32_t round = 0; round < rounds; ++round) {
         std::array<Block, kGoings> blocks[2];
         // What moves is back in its place before maps are made for the next: both see the same. They take turns, so
@@ -111,8 +111,8 @@ Result<FramesAgainst> measure_frames_against(Stage& stage, std::span<const std::
             const Block& ours = blocks[0][static_cast<std::size_t>(kPairs[i].own)];
             const auto base = other[i].add(theirs.times, nullptr);
             own[i].add(ours.times, &base);
-            times.held[i].own = {own[i].frames(), ours.views_drawn, ours.bytes};
-            times.held[i].other = {other[i].frames(), theirs.views_drawn, theirs.bytes};
+            times.rows[i].own = {own[i].frames(), ours.views_drawn, ours.bytes};
+            times.rows[i].other = {other[i].frames(), theirs.views_drawn, theirs.bytes};
         }
     }
     return times;
@@ -121,18 +121,17 @@ Result<FramesAgainst> measure_frames_against(Stage& stage, std::span<const std::
 std::string frames_against_table(const FramesAgainst& times) {
     std::string text = "scene   " + times.scene + "\ndevice  " + times.device + "\nlights  " +
                        words_of(times.settings) + "\nagainst " + words_of(times.other_settings) + "\n\n";
-    for (const FramesAgainst::Held& held : times.held) {
+    for (const FramesAgainst::Row& row : times.rows) {
         char line[kLineLength];
-        const TimedFrames& own = held.own.frames;
-        std::snprintf(line, sizeof line,
-                      "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f); views drawn %u : %u, MB %.1f : %.1f\n"
-                      "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f)\n",
-                      held.words, own.us.median / kUsPerMs, held.other.frames.us.median / kUsPerMs, own.ratio.median,
-                      own.ratio.min, own.ratio.max, held.own.views_drawn, held.other.views_drawn,
-                      static_cast<double>(held.own.bytes) / kBytesPerMb,
-                      static_cast<double>(held.other.bytes) / kBytesPerMb, "  processor", own.cpu_us.median / kUsPerMs,
-                      held.other.frames.cpu_us.median / kUsPerMs, own.cpu_ratio.median, own.cpu_ratio.min,
-                      own.cpu_ratio.max);
+        const TimedFrames& own = row.own.frames;
+        std::snprintf(
+            line, sizeof line,
+            "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f); views drawn %u : %u, MB %.1f : %.1f\n"
+            "%-28s %8.2f ms against %8.2f: x %.2f (%.2f-%.2f)\n",
+            row.words, own.us.median / kUsPerMs, row.other.frames.us.median / kUsPerMs, own.ratio.median, own.ratio.min,
+            own.ratio.max, row.own.views_drawn, row.other.views_drawn, static_cast<double>(row.own.bytes) / kBytesPerMb,
+            static_cast<double>(row.other.bytes) / kBytesPerMb, "  processor", own.cpu_us.median / kUsPerMs,
+            row.other.frames.cpu_us.median / kUsPerMs, own.cpu_ratio.median, own.cpu_ratio.min, own.cpu_ratio.max);
         text += line;
     }
     return text + "\nWhat the columns mean: bench frame --help\n";
@@ -144,11 +143,11 @@ std::string frames_against_json(const FramesAgainst& times) {
     json["device"] = times.device;
     json["settings"] = times.settings;
     json["against"] = times.other_settings;
-    for (const FramesAgainst::Held& held : times.held)
-        json[held.key] = {{"ratio", to_json(held.own.frames.ratio)},
-                          {"cpu_ratio", to_json(held.own.frames.cpu_ratio)},
-                          {"own", to_json(held.own)},
-                          {"other", to_json(held.other)}};
+    for (const FramesAgainst::Row& row : times.rows)
+        json[row.key] = {{"ratio", to_json(row.own.frames.ratio)},
+                         {"cpu_ratio", to_json(row.own.frames.cpu_ratio)},
+                         {"own", to_json(row.own)},
+                         {"other", to_json(row.other)}};
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -16,12 +16,12 @@ struct FramesAgainst {
         std::uint32_t views_drawn = 0;
         std::uint64_t bytes = 0;  // both of all lights in the last frame
     };
-    struct Held {
+    struct Row {
         const char* words;
         const char* key;
         DepthVariant own, other;
     };
-    std::vector<Held> held;
+    std::vector<Row> rows;
 };
 
 /// Compares frames under two groups of settings. Rounds of `frames` frames take turns as in measure_frame_times().

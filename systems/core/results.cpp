@@ -126,7 +126,7 @@ View view_of(const StageResults& stages, const ShadowView& from, const Conventio
     view.kind = is_cube(from)               ? ViewKind::cube_face
                 : shadow::is_parallel(from) ? ViewKind::orthographic
                                             : ViewKind::perspective;
-    view.stays = from.held;
+    view.stays = from.stays;
     view.empty = from.lit;
     view.mirrored = is_cube(from) && convention.rows_down;
     view.anchor_ws_m = from.pose.anchor_ws_m;

@@ -133,10 +133,10 @@ void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& 
             upload_all_ = true;
         }
     }
-    const std::size_t held = std::min<std::size_t>(records_.size(), instance_capacity_);
+    const std::size_t count = std::min<std::size_t>(records_.size(), instance_capacity_);
     if (upload_all_) {
         for (const InstanceItem& item : snapshot.instances) records_[item.gpu_slot] = instance_record(item);
-        list.update(instances_, 0, std::span<const InstanceRecord>(records_).first(held));
+        list.update(instances_, 0, std::span<const InstanceRecord>(records_).first(count));
         upload_all_ = false;
     } else {
         // Sorted by slot; each run of neighbours is one copy.
@@ -148,7 +148,7 @@ void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& 
                 records_[slot(end)] = instance_record(snapshot.instances[changed[end]]);
                 ++end;
             } while (end < changed.size() && slot(end) == slot(end - 1) + 1);
-            const std::size_t from = slot(first), to = std::min(held, from + (end - first));
+            const std::size_t from = slot(first), to = std::min(count, from + (end - first));
             if (from < to)
                 list.update(instances_, std::uint64_t{from} * sizeof(InstanceRecord),
                             std::span<const InstanceRecord>(records_).subspan(from, to - from));

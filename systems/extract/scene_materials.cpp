@@ -51,7 +51,7 @@ SceneMaterials& SceneMaterials::operator=(SceneMaterials&& other) noexcept {
     outgrown_ = std::move(other.outgrown_);
     samplers_ = std::move(other.samplers_);
     materials_ = std::move(other.materials_);
-    held_ = std::move(other.held_);
+    uploaded_ = std::move(other.uploaded_);
     unwritten_ = std::move(other.unwritten_);
     unconfirmed_ = std::move(other.unconfirmed_);
     lacks_ = other.lacks_;
@@ -69,7 +69,7 @@ SceneMaterials& SceneMaterials::operator=(SceneMaterials&& other) noexcept {
 void SceneMaterials::release() {
     if (!device_) return;
     device_->destroy(white_);
-    for (const HeldTexture& texture : textures_) device_->destroy(texture.texture);
+    for (const UploadedTexture& texture : textures_) device_->destroy(texture.texture);
     for (const gl::TextureHandle texture : outgrown_) device_->destroy(texture);
     for (const auto& [reading, sampler] : samplers_) device_->destroy(sampler);
     textures_.clear();
@@ -116,30 +116,30 @@ void SceneMaterials::note_changes() {
     lacks_ = true;
     textures_.resize(library_->textures.size());
     materials_.resize(library_->materials.size());
-    held_.resize(library_->materials.size());
+    uploaded_.resize(library_->materials.size());
     for (std::uint32_t t = 0; t < textures_.size(); ++t) {
         const std::uint64_t version = library_->texture_versions.of(t);
         if (textures_[t].state.version == version) continue;
         if (textures_[t].texture) outgrown_.push_back(textures_[t].texture);
         textures_[t] = {{}, {version, false}};
     }
-    for (std::uint32_t m = 0; m < held_.size(); ++m) {
+    for (std::uint32_t m = 0; m < uploaded_.size(); ++m) {
         const std::uint64_t version = library_->material_versions.of(m);
-        if (held_[m].version != version) held_[m] = {version, false};
+        if (uploaded_[m].version != version) uploaded_[m] = {version, false};
     }
 }
 
 gl::Failure SceneMaterials::make_texture(std::size_t index) {
     const assets::Texture& t = library_->textures[index];
-    HeldTexture& held = textures_[index];
-    const bool was_removed = held.state.version != 0 && t.width == 0;
+    UploadedTexture& uploaded = textures_[index];
+    const bool was_removed = uploaded.state.version != 0 && t.width == 0;
     gl::Created<gl::TextureHandle> made;
     if (!was_removed)
         made = device_->create_texture(
             {"texture " + t.name, gl::TextureKind::flat, gl::Format::srgb8_a8, t.width, t.height, 1, 0},
             std::as_bytes(std::span(t.rgba)));
-    held.texture = made.handle;
-    held.state.held = static_cast<bool>(made);
+    uploaded.texture = made.handle;
+    uploaded.state.there = static_cast<bool>(made);
     return made.failure;
 }
 
@@ -181,7 +181,7 @@ gl::Failure SceneMaterials::make_info(std::size_t m) {
         info.texture = textures_[t].texture;
         failure = sampler_for(texture.wrap_u, texture.wrap_v, texture.linear_filter, info.sampler);
     }
-    held_[m].held = failure == gl::Failure::none;
+    uploaded_[m].there = failure == gl::Failure::none;
     return failure;
 }
 
@@ -199,7 +199,7 @@ void SceneMaterials::note_lights() {
 
 void SceneMaterials::follow(gl::CommandList& list) {
     ++calls_;
-    const bool changed = library_->version != seen_ || held_.size() < library_->materials.size();
+    const bool changed = library_->version != seen_ || uploaded_.size() < library_->materials.size();
     if (changed) note_changes();
     if (changed) note_lights();
     if (lacks_ && retry_.due(calls_)) {
@@ -214,11 +214,11 @@ void SceneMaterials::follow(gl::CommandList& list) {
 /// Makes what is not on the device, until the device refuses.
 gl::Failure SceneMaterials::make_lacking(gl::CommandList& list) {
     for (std::size_t t = 0; t < textures_.size(); ++t) {
-        if (textures_[t].state.held) continue;
+        if (textures_[t].state.there) continue;
         if (const gl::Failure f = make_texture(t); f != gl::Failure::none) return f;
     }
-    for (std::size_t m = 0; m < held_.size(); ++m) {
-        if (held_[m].held) continue;
+    for (std::size_t m = 0; m < uploaded_.size(); ++m) {
+        if (uploaded_[m].there) continue;
         const auto missing =
             static_cast<std::uint32_t>(m + 1) - std::min(static_cast<std::uint32_t>(m + 1), uniforms_.used());
         const bool has_room =
@@ -241,8 +241,8 @@ void SceneMaterials::submitted(bool executed) {
     for (const gl::TextureHandle texture : outgrown_) device_->destroy(texture);
     outgrown_.clear();
     if (!executed && !moved) unwritten_.insert(unwritten_.end(), unconfirmed_.begin(), unconfirmed_.end());
-    for (std::size_t m = 0; m < held_.size() && !executed && moved; ++m)
-        if (held_[m].held) unwritten_.push_back(m);
+    for (std::size_t m = 0; m < uploaded_.size() && !executed && moved; ++m)
+        if (uploaded_[m].there) unwritten_.push_back(m);
     unconfirmed_.clear();
 }
 

@@ -53,7 +53,7 @@ public:
     void submitted(bool executed);
 
     /// Returns true if the device has the material.
-    bool has(std::uint32_t material) const { return material < held_.size() && held_[material].held; }
+    bool has(std::uint32_t material) const { return material < uploaded_.size() && uploaded_[material].there; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
     /// Returns the number of slots of materials.
     std::size_t count() const { return materials_.size(); }
@@ -67,13 +67,13 @@ public:
 
 private:
     /// What of a slot of the library is on the device.
-    struct Held {
+    struct Uploaded {
         std::uint64_t version = 0;  // the library's, of the slot
-        bool held = false;
+        bool there = false;
     };
-    struct HeldTexture {
+    struct UploadedTexture {
         gl::TextureHandle texture{};  // {0}: it has no texels
-        Held state;
+        Uploaded state;
     };
     gl::Failure make_texture(std::size_t texture);
     gl::Failure make_info(std::size_t material);
@@ -88,11 +88,11 @@ private:
     const assets::MeshLibrary* library_ = nullptr;
     DeviceArrays uniforms_;
     gl::TextureHandle white_{};
-    std::vector<HeldTexture> textures_;
+    std::vector<UploadedTexture> textures_;
     std::vector<gl::TextureHandle> outgrown_;  // freed once the list was submitted
     std::map<std::tuple<assets::TextureWrap, assets::TextureWrap, bool>, gl::SamplerHandle> samplers_;
     std::vector<MaterialInfo> materials_;
-    std::vector<Held> held_;  // by material
+    std::vector<Uploaded> uploaded_;  // by material
     std::vector<std::size_t> unwritten_, unconfirmed_;
     bool lacks_ = false;  // some material or texture is not on the device
     std::uint64_t version_ = 0;

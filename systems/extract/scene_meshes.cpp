@@ -81,11 +81,11 @@ gl::Failure SceneMeshes::create(gl::Device& device, const assets::MeshLibrary& l
 void SceneMeshes::add_range(std::uint32_t m, std::uint32_t first_vertex, std::uint32_t first_triangle) {
     if (m >= ranges_.size()) {
         ranges_.resize(m + std::size_t{1});
-        held_.resize(m + std::size_t{1});
+        uploaded_.resize(m + std::size_t{1});
     }
     const assets::Mesh& mesh = library_->meshes[m];
-    held_[m] = {library_->version_of(m), first_vertex,       static_cast<std::uint32_t>(mesh.vertices.size()),
-                first_triangle,          triangles_of(mesh), true};
+    uploaded_[m] = {library_->version_of(m), first_vertex,       static_cast<std::uint32_t>(mesh.vertices.size()),
+                    first_triangle,          triangles_of(mesh), true};
     MeshRange& range = ranges_[m];
     range = range_of(*library_, mesh);
     range.base_vertex = static_cast<std::int32_t>(first_vertex);
@@ -109,7 +109,7 @@ void SceneMeshes::put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) {
     if (mesh >= engine_meshes_.size()) engine_meshes_.resize(mesh + std::size_t{1});
     if (mesh >= ranges_.size()) {
         ranges_.resize(mesh + std::size_t{1});
-        held_.resize(mesh + std::size_t{1});
+        uploaded_.resize(mesh + std::size_t{1});
     }
     take_away(mesh);  // what had the number before
     engine_meshes_[mesh] = of;
@@ -153,10 +153,10 @@ bool SceneMeshes::provide_caster_triangles() {
     if (caster_triangles() || !casters_retry_.due(++caster_calls_)) return static_cast<bool>(caster_triangles());
     std::vector<CasterTriangle> triangles(triangle_arrays_.places());
     RayMasks masks(*library_);
-    for (std::uint32_t m = 0; m < held_.size(); ++m) {
+    for (std::uint32_t m = 0; m < uploaded_.size(); ++m) {
         if (!is_current(m)) continue;
         const std::span<const CasterTriangle> records = caster_records(m, masks);
-        std::copy(records.begin(), records.end(), triangles.begin() + held_[m].first_triangle);
+        std::copy(records.begin(), records.end(), triangles.begin() + uploaded_[m].first_triangle);
     }
     const gl::BufferUse use = is_streaming_ ? gl::BufferUse::updated : shape_use(*library_);
     DeviceArrays::Array array = kCasterArray;
@@ -181,7 +181,7 @@ std::span<const CasterTriangle> SceneMeshes::caster_records(std::uint32_t m, Ray
     Bent* bent = bent_of(m);
     std::vector<CasterTriangle>& records = bent ? bent->triangles : caster_scratch_;
     records.clear();
-    append_caster_triangles(*library_, m, held_[m].first_triangle, masks, records);
+    append_caster_triangles(*library_, m, uploaded_[m].first_triangle, masks, records);
     if (bent) put_corners(library_->meshes[m].indices, *bent);
     return records;
 }
@@ -193,15 +193,15 @@ void SceneMeshes::put_corners(const std::vector<std::uint32_t>& indices, Bent& b
 }
 
 void SceneMeshes::upload(Bent& bent, gl::CommandList& list) {
-    const Held& held = held_[bent.mesh];
+    const Uploaded& uploaded = uploaded_[bent.mesh];
     const std::vector<std::uint32_t>& indices = library_->meshes[bent.mesh].indices;
-    vertex_arrays_.write(kVertices, held.first_vertex, std::span<const assets::Vertex>(bent.vertices), list);
+    vertex_arrays_.write(kVertices, uploaded.first_vertex, std::span<const assets::Vertex>(bent.vertices), list);
     texel_scratch_.clear();
     append_plane_normals(bent.vertices, indices, texel_scratch_);
-    triangle_arrays_.write(kNormals, held.first_triangle, std::span<const glm::vec4>(texel_scratch_), list);
+    triangle_arrays_.write(kNormals, uploaded.first_triangle, std::span<const glm::vec4>(texel_scratch_), list);
     if (!caster_triangles()) return;
     put_corners(indices, bent);
-    triangle_arrays_.write(kCasters, held.first_triangle, std::span<const CasterTriangle>(bent.triangles), list);
+    triangle_arrays_.write(kCasters, uploaded.first_triangle, std::span<const CasterTriangle>(bent.triangles), list);
 }
 
 void SceneMeshes::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list) {

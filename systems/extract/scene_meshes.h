@@ -82,7 +82,7 @@ private:
     static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
 
     /// Places that a mesh has taken.
-    struct Held {
+    struct Uploaded {
         std::uint64_t version = 0;  // MeshLibrary::version_of()
         std::uint32_t first_vertex = 0, vertices = 0, first_triangle = 0, triangles = 0;
         bool placed = false;
@@ -97,7 +97,7 @@ private:
 
     /// Returns true if the mesh has its places, and is still the one in the library.
     bool is_current(std::uint32_t mesh) const {
-        return held_[mesh].placed && held_[mesh].version == library_->version_of(mesh);
+        return uploaded_[mesh].placed && uploaded_[mesh].version == library_->version_of(mesh);
     }
     void add_range(std::uint32_t mesh, std::uint32_t first_vertex, std::uint32_t first_triangle);
     std::vector<Bent>::iterator bent_at(std::uint32_t mesh);
@@ -119,7 +119,7 @@ private:
     DeviceArrays vertex_arrays_, triangle_arrays_;
     MaskBuffer mask_buffer_;
     std::optional<RayMasks> masks_;          // while caster triangles are on the device, and meshes come and go
-    std::vector<Held> held_;                 // by mesh
+    std::vector<Uploaded> uploaded_;         // by mesh
     std::vector<MeshRange> ranges_;          // by mesh
     std::vector<EngineMesh> engine_meshes_;  // by mesh; shorter than the meshes: the others are none
     std::vector<SubmeshRange> submeshes_;

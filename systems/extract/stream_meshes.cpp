@@ -14,7 +14,7 @@ void SceneMeshes::follow(const SceneMaterials& materials, gl::CommandList& list)
     if (is_streaming_) vertex_arrays_.shrink(list);
     if (is_streaming_) triangle_arrays_.shrink(list);
     for (const std::uint32_t m : unwritten_)
-        if (held_[m].placed) write(m, list);
+        if (uploaded_[m].placed) write(m, list);
     unconfirmed_.insert(unconfirmed_.end(), unwritten_.begin(), unwritten_.end());
     unwritten_.clear();
     if (masks_ && !mask_buffer_.follow(*masks_, list)) drop_casters();
@@ -26,14 +26,14 @@ void SceneMeshes::note_changes() {
     if (!is_streaming_) drop_casters();  // they are made again with room for changes
     is_streaming_ = true;
     seen_ = library_->version;
-    held_.resize(library_->meshes.size());
+    uploaded_.resize(library_->meshes.size());
     ranges_.resize(library_->meshes.size());
-    for (std::uint32_t m = 0; m < held_.size(); ++m) {
+    for (std::uint32_t m = 0; m < uploaded_.size(); ++m) {
         const std::uint64_t version = library_->version_of(m);
-        const bool is_new = !held_[m].placed && held_[m].version == 0;  // pushed back by hand
-        if (held_[m].version == version && !is_new) continue;
+        const bool is_new = !uploaded_[m].placed && uploaded_[m].version == 0;  // pushed back by hand
+        if (uploaded_[m].version == version && !is_new) continue;
         take_away(m);
-        held_[m].version = version;
+        uploaded_[m].version = version;
         if (!library_->meshes[m].indices.empty()) waiting_.push_back(m);
     }
     std::sort(waiting_.begin(), waiting_.end());
@@ -41,15 +41,15 @@ void SceneMeshes::note_changes() {
 
 void SceneMeshes::take_away(std::uint32_t m) {
     std::erase(waiting_, m);
-    if (!held_[m].placed) return;
+    if (!uploaded_[m].placed) return;
     std::erase(unwritten_, m);
     std::erase(unconfirmed_, m);
-    vertex_arrays_.give(held_[m].first_vertex, held_[m].vertices);
-    triangle_arrays_.give(held_[m].first_triangle, held_[m].triangles);
+    vertex_arrays_.give(uploaded_[m].first_vertex, uploaded_[m].vertices);
+    triangle_arrays_.give(uploaded_[m].first_triangle, uploaded_[m].triangles);
     submesh_places_.give(ranges_[m].first_submesh, ranges_[m].submesh_count);
     if (masks_) masks_->forget(m);
     if (bent_of(m)) bent_.erase(bent_at(m));
-    held_[m] = {};
+    uploaded_[m] = {};
     ranges_[m] = {};
     changed_.push_back(m);
 }
@@ -101,17 +101,18 @@ bool SceneMeshes::place(std::uint32_t m, bool may_grow, gl::CommandList& list) {
 /// Records the upload of a placed mesh.
 void SceneMeshes::write(std::uint32_t m, gl::CommandList& list) {
     const assets::Mesh& mesh = library_->meshes[m];
-    const Held& held = held_[m];
+    const Uploaded& uploaded = uploaded_[m];
     const std::vector<assets::Vertex>& vertices = *shape(m).vertices;
-    vertex_arrays_.write(kVertices, held.first_vertex, std::span<const assets::Vertex>(vertices), list);
+    vertex_arrays_.write(kVertices, uploaded.first_vertex, std::span<const assets::Vertex>(vertices), list);
     texel_scratch_.clear();
     if (colours()) append_colours(mesh, texel_scratch_);
-    if (colours()) vertex_arrays_.write(kColours, held.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
-    triangle_arrays_.write(kIndices, held.first_triangle, whole_triangles(mesh), list);
+    if (colours())
+        vertex_arrays_.write(kColours, uploaded.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
+    triangle_arrays_.write(kIndices, uploaded.first_triangle, whole_triangles(mesh), list);
     texel_scratch_.clear();
     append_plane_normals(vertices, mesh.indices, texel_scratch_);
-    triangle_arrays_.write(kNormals, held.first_triangle, std::span<const glm::vec4>(texel_scratch_), list);
-    if (caster_triangles()) triangle_arrays_.write(kCasters, held.first_triangle, caster_records(m, *masks_), list);
+    triangle_arrays_.write(kNormals, uploaded.first_triangle, std::span<const glm::vec4>(texel_scratch_), list);
+    if (caster_triangles()) triangle_arrays_.write(kCasters, uploaded.first_triangle, caster_records(m, *masks_), list);
 }
 
 void SceneMeshes::drop_casters() {
@@ -129,8 +130,8 @@ void SceneMeshes::submitted(bool executed) {
     if (!executed) {
         for (Bent& bent : bent_) bent.version = kUnknown;
         if (moved) unwritten_.clear();
-        for (std::uint32_t m = 0; m < held_.size() && moved; ++m)
-            if (held_[m].placed) unwritten_.push_back(m);
+        for (std::uint32_t m = 0; m < uploaded_.size() && moved; ++m)
+            if (uploaded_[m].placed) unwritten_.push_back(m);
         if (!moved) unwritten_.insert(unwritten_.end(), unconfirmed_.begin(), unconfirmed_.end());
         if (is_streaming_) drop_casters();
         triangle_arrays_.submitted();

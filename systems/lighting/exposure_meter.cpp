@@ -50,9 +50,9 @@ double ExposureMeter::bound(ecs::Entity camera) {
     if (!measured_ || camera_ != camera) return std::numeric_limits<double>::infinity();
     constexpr double kStepsPerStop = 4.0, kMostTooLarge = 2.0;
     const double needed = *measured_ * kMostGrowth;
-    if (!(needed <= held_ && held_ <= kMostTooLarge * needed))
-        held_ = std::exp2(std::ceil(kStepsPerStop * std::log2(needed)) / kStepsPerStop);
-    return held_;
+    if (!(needed <= last_ && last_ <= kMostTooLarge * needed))
+        last_ = std::exp2(std::ceil(kStepsPerStop * std::log2(needed)) / kStepsPerStop);
+    return last_;
 }
 
 }  // namespace gnomon::lighting

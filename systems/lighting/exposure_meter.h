@@ -46,7 +46,7 @@ private:
     ReadbackRing scales_;
     ecs::Entity camera_ = {};
     std::optional<double> measured_;
-    double held_ = 0.0;
+    double last_ = 0.0;
     std::uint64_t frames_ = 0;
     Retry retry_;
 };

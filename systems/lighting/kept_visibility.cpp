@@ -82,8 +82,8 @@ bool KeptVisibility::provide(Entry& kept, gl::Rect area, glm::uvec2 picture_px) 
     }
     free(kept);
     const std::uint64_t scratch_bytes = whole || scratch_ ? 0 : bytes_of(picture_px);
-    const std::uint64_t more = bytes_of(size_of(area)) + scratch_bytes, held = bytes();
-    if (held > most_bytes_ || more > most_bytes_ - held || !kept.retry.due(picture_)) return false;
+    const std::uint64_t more = bytes_of(size_of(area)) + scratch_bytes, taken = bytes();
+    if (taken > most_bytes_ || more > most_bytes_ - taken || !kept.retry.due(picture_)) return false;
     if (make("kept visibility", size_of(area), kept.texture, kept.target) && (whole || provide_scratch(picture_px))) {
         kept.area = area;
         return true;

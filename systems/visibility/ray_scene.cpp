@@ -40,7 +40,7 @@ bool start(gl::Device& device, DeviceArrays& arrays, const char* label, std::vec
 
 }  // namespace
 
-RayScene::Held::Held(gl::Device& device, const assets::MeshLibrary& library)
+RayScene::State::State(gl::Device& device, const assets::MeshLibrary& library)
     : trees(library),
       masks(library),
       top_buffer(device, "ray tree of instances", true),
@@ -57,7 +57,7 @@ void RayScene::free_meshes() {
 void RayScene::release() {
     free_meshes();
     submitted(true);
-    held_.reset();
+    state_.reset();
     report_ = {};
     calls_ = 0;
     retry_ = {};
@@ -79,10 +79,10 @@ void RayScene::name_buffers() {
 
 bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     if (!retry_.due(++calls_)) return false;
-    if (!held_) held_.emplace(device_, gpu.library());
-    held_->trees.update(scene);
+    if (!state_) state_.emplace(device_, gpu.library());
+    state_->trees.update(scene);
     const bool is_streaming = gpu.library().version != 0;
-    const bool has_all = is_streaming || held_->placed_trees == held_->trees.counts().trees;
+    const bool has_all = is_streaming || state_->placed_trees == state_->trees.counts().trees;
     const bool made = buffers_.nodes && !forgotten_ && has_all;
     report_.meshes_written = 0;
     report_.instances_written = false;
@@ -102,14 +102,14 @@ bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::Comma
 /// Appends a mesh's triangles by slot, as shaders read them.
 void RayScene::take_triangles(const GpuScene& gpu, std::uint32_t mesh) {
     const std::uint32_t first = gpu.mesh(mesh).first_index / 3;
-    for (rays::BvhTriangle triangle : held_->trees.tree(mesh)->triangles()) {
+    for (rays::BvhTriangle triangle : state_->trees.tree(mesh)->triangles()) {
         if (triangle.mask != rays::kOpaque) {
-            const RayMasks::Place place = held_->masks.place(mesh, triangle.triangle, triangle.mask);
+            const RayMasks::Place place = state_->masks.place(mesh, triangle.triangle, triangle.mask);
             triangle.mask = place.mask;
             triangle.spare = place.uvs;
         }
         triangle.triangle += first;
-        held_->scratch.push_back(triangle);
+        state_->scratch.push_back(triangle);
     }
 }
 
@@ -119,27 +119,27 @@ bool RayScene::make_meshes(const SceneSnapshot& scene, const GpuScene& gpu) {
     submitted(true);  // no list of this frame names them
     const assets::MeshLibrary& library = gpu.library();
     const bool is_streaming = library.version != 0;
-    held_->places.assign(library.meshes.size(), {});
-    held_->taken.assign(library.meshes.size(), {});
-    held_->placed_trees = held_->trees.counts().trees;
-    if (is_streaming) held_->masks = RayMasks(library);
-    held_->scratch.clear();
+    state_->places.assign(library.meshes.size(), {});
+    state_->taken.assign(library.meshes.size(), {});
+    state_->placed_trees = state_->trees.counts().trees;
+    if (is_streaming) state_->masks = RayMasks(library);
+    state_->scratch.clear();
     std::vector<rays::BvhNode> nodes;
     for (std::uint32_t mesh = 0; mesh < library.meshes.size(); ++mesh) {
-        const rays::MeshBvh* tree = held_->trees.tree(mesh);
+        const rays::MeshBvh* tree = state_->trees.tree(mesh);
         if (!tree || tree->nodes().empty()) continue;
         note_place(scene, gpu, mesh, static_cast<std::uint32_t>(nodes.size()),
-                   static_cast<std::uint32_t>(held_->scratch.size()));
+                   static_cast<std::uint32_t>(state_->scratch.size()));
         nodes.insert(nodes.end(), tree->nodes().begin(), tree->nodes().end());
-        nodes.resize(std::size_t{held_->places[mesh].first_node} + held_->taken[mesh].nodes);
+        nodes.resize(std::size_t{state_->places[mesh].first_node} + state_->taken[mesh].nodes);
         take_triangles(gpu, mesh);
     }
-    const std::span<const std::uint32_t> words = held_->masks.words();
+    const std::span<const std::uint32_t> words = state_->masks.words();
     const bool has_trees = start(device_, nodes_, "ray trees of meshes", nodes, is_streaming) &&
-                           start(device_, triangles_, "ray triangles", held_->scratch, is_streaming);
+                           start(device_, triangles_, "ray triangles", state_->scratch, is_streaming);
     const bool has_all = has_trees && (words.empty() || masks_.make(words, !is_streaming));
-    held_->masks.forget_changes();
-    held_->scratch = {};
+    state_->masks.forget_changes();
+    state_->scratch = {};
     name_buffers();
     return has_all;
 }
@@ -147,25 +147,25 @@ bool RayScene::make_meshes(const SceneSnapshot& scene, const GpuScene& gpu) {
 /// Writes down where a mesh's tree lies, and what it is of.
 void RayScene::note_place(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t mesh, std::uint32_t first_node,
                           std::uint32_t first_slot) {
-    const rays::MeshBvh& tree = *held_->trees.tree(mesh);
+    const rays::MeshBvh& tree = *state_->trees.tree(mesh);
     const bool bends = gpu.library().meshes[mesh].deformer != nullptr;
-    held_->places[mesh] = {first_node, static_cast<std::uint32_t>(tree.nodes().size()), first_slot, tree.box(), {}};
-    if (!bends) held_->places[mesh].tree = tree.nodes();
-    held_->taken[mesh] = {most_nodes(tree, bends), static_cast<std::uint32_t>(tree.triangles().size()),
-                          held_->trees.mesh_version(mesh), pose_version(scene, mesh)};
+    state_->places[mesh] = {first_node, static_cast<std::uint32_t>(tree.nodes().size()), first_slot, tree.box(), {}};
+    if (!bends) state_->places[mesh].tree = tree.nodes();
+    state_->taken[mesh] = {most_nodes(tree, bends), static_cast<std::uint32_t>(tree.triangles().size()),
+                           state_->trees.mesh_version(mesh), pose_version(scene, mesh)};
 }
 
 /// Frees the places of trees of removed and replaced meshes. Returns whether there were any.
 bool RayScene::take_away_changed() {
     bool any = false;
-    for (std::uint32_t mesh = 0; mesh < held_->places.size(); ++mesh) {
-        MeshTreePlace& place = held_->places[mesh];
-        Taken& taken = held_->taken[mesh];
-        const bool stays = held_->trees.tree(mesh) && taken.mesh_version == held_->trees.mesh_version(mesh);
+    for (std::uint32_t mesh = 0; mesh < state_->places.size(); ++mesh) {
+        MeshTreePlace& place = state_->places[mesh];
+        Taken& taken = state_->taken[mesh];
+        const bool stays = state_->trees.tree(mesh) && taken.mesh_version == state_->trees.mesh_version(mesh);
         if (place.nodes == 0 || stays) continue;
         nodes_.give(place.first_node, taken.nodes);
         triangles_.give(place.first_slot, taken.triangles);
-        held_->masks.forget(mesh);
+        state_->masks.forget(mesh);
         place = {};
         taken = {};
         any = true;
@@ -176,84 +176,84 @@ bool RayScene::take_away_changed() {
 /// Follows meshes that came and went.
 RayScene::Followed RayScene::follow_meshes(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     const std::size_t meshes = gpu.library().meshes.size();
-    held_->places.resize(meshes);
-    held_->taken.resize(meshes);
+    state_->places.resize(meshes);
+    state_->taken.resize(meshes);
     const bool any_went = take_away_changed();
     bool any_came = false;
     for (std::uint32_t mesh = 0; mesh < meshes; ++mesh) {
-        const rays::MeshBvh* tree = held_->trees.tree(mesh);
-        if (!tree || tree->nodes().empty() || held_->places[mesh].nodes > 0) continue;
+        const rays::MeshBvh* tree = state_->trees.tree(mesh);
+        if (!tree || tree->nodes().empty() || state_->places[mesh].nodes > 0) continue;
         if (!place_mesh(scene, gpu, mesh, list)) return Followed::failed;
         any_came = true;
     }
     nodes_.shrink(list);
     triangles_.shrink(list);
-    if (!masks_.follow(held_->masks, list)) return Followed::failed;
-    held_->placed_trees = held_->trees.counts().trees;
+    if (!masks_.follow(state_->masks, list)) return Followed::failed;
+    state_->placed_trees = state_->trees.counts().trees;
     name_buffers();
     return any_went || any_came ? Followed::changed : Followed::same;
 }
 
 /// Takes places for a mesh's tree, and writes it. Returns false without room.
 bool RayScene::place_mesh(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t mesh, gl::CommandList& list) {
-    const rays::MeshBvh& tree = *held_->trees.tree(mesh);
+    const rays::MeshBvh& tree = *state_->trees.tree(mesh);
     const std::uint32_t nodes = most_nodes(tree, gpu.library().meshes[mesh].deformer != nullptr);
     const std::uint32_t first_node = nodes_.take(nodes, true, list);
     const std::uint32_t first_slot = triangles_.take(static_cast<std::uint32_t>(tree.triangles().size()), true, list);
     if (first_node == DeviceArrays::kNone || first_slot == DeviceArrays::kNone) return false;
     note_place(scene, gpu, mesh, first_node, first_slot);
-    held_->scratch.clear();
+    state_->scratch.clear();
     take_triangles(gpu, mesh);
     nodes_.write(0, first_node, tree.nodes(), list);
-    triangles_.write(0, first_slot, std::span<const rays::BvhTriangle>(held_->scratch), list);
+    triangles_.write(0, first_slot, std::span<const rays::BvhTriangle>(state_->scratch), list);
     ++report_.meshes_written;
     return true;
 }
 
 void RayScene::rewrite_bent(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     for (const PoseItem& pose : scene.poses) {
-        const rays::MeshBvh* tree = held_->trees.tree(pose.mesh);
-        if (!tree || tree->nodes().empty() || held_->taken[pose.mesh].pose_version == pose.version) continue;
-        MeshTreePlace& place = held_->places[pose.mesh];
+        const rays::MeshBvh* tree = state_->trees.tree(pose.mesh);
+        if (!tree || tree->nodes().empty() || state_->taken[pose.mesh].pose_version == pose.version) continue;
+        MeshTreePlace& place = state_->places[pose.mesh];
         place.nodes = static_cast<std::uint32_t>(tree->nodes().size());
         place.box = tree->box();
-        held_->taken[pose.mesh].pose_version = pose.version;
-        held_->scratch.clear();
+        state_->taken[pose.mesh].pose_version = pose.version;
+        state_->scratch.clear();
         take_triangles(gpu, pose.mesh);
         list.update(buffers_.nodes, std::uint64_t{place.first_node} * sizeof(rays::BvhNode), tree->nodes());
         list.update(buffers_.triangles, std::uint64_t{place.first_slot} * sizeof(rays::BvhTriangle),
-                    std::span<const rays::BvhTriangle>(held_->scratch));
+                    std::span<const rays::BvhTriangle>(state_->scratch));
         ++report_.meshes_written;
     }
 }
 
 /// Returns true if all instances are as when the upper level was written.
 bool RayScene::stand_still(const SceneSnapshot& scene) const {
-    if (scene.version == 0 || scene.version == held_->version) return scene.version != 0;
+    if (scene.version == 0 || scene.version == state_->version) return scene.version != 0;
     const bool all_are_named =
-        scene.version == held_->version + 1 && scene.list_version != 0 && scene.list_version == held_->list_version;
+        scene.version == state_->version + 1 && scene.list_version != 0 && scene.list_version == state_->list_version;
     return all_are_named && scene.changed_instances.empty();
 }
 
 /// Writes the upper level. `all`: the device's contents are unknown.
 bool RayScene::write_instances(const SceneSnapshot& scene, bool all, gl::CommandList& list) {
     const bool still = !all && stand_still(scene);
-    if (still) held_->version = scene.version;
+    if (still) state_->version = scene.version;
     if (still) return true;
-    const bool same = !all && scene.list_version != 0 && scene.list_version == held_->list_version;
-    InstanceTree& tree = held_->instances;
-    tree.update(scene, held_->places, same);
-    held_->version = scene.version;
-    held_->list_version = scene.list_version;
+    const bool same = !all && scene.list_version != 0 && scene.list_version == state_->list_version;
+    InstanceTree& tree = state_->instances;
+    tree.update(scene, state_->places, same);
+    state_->version = scene.version;
+    state_->list_version = scene.list_version;
     const std::uint64_t top_bytes =
         sizeof(RayTop) + std::max<std::size_t>(tree.nodes().size(), 1) * sizeof(rays::BvhNode);
     const std::uint64_t record_bytes = std::max<std::size_t>(tree.parts().size(), 1) * sizeof(RayInstance);
-    if (!held_->top_buffer.reserve(top_bytes) || !held_->instance_buffer.reserve(record_bytes)) {
-        held_->version = 0;
+    if (!state_->top_buffer.reserve(top_bytes) || !state_->instance_buffer.reserve(record_bytes)) {
+        state_->version = 0;
         return false;
     }
-    buffers_.top = held_->top_buffer.handle();
-    buffers_.instances = held_->instance_buffer.handle();
+    buffers_.top = state_->top_buffer.handle();
+    buffers_.instances = state_->instance_buffer.handle();
     list.update(buffers_.top, 0, std::span<const RayTop>(&tree.head(), 1));
     if (!tree.nodes().empty()) list.update(buffers_.top, sizeof(RayTop), tree.nodes());
     if (!tree.parts().empty()) list.update(buffers_.instances, 0, tree.parts());
@@ -262,11 +262,11 @@ bool RayScene::write_instances(const SceneSnapshot& scene, bool all, gl::Command
 }
 
 void RayScene::count() {
-    report_.bytes = nodes_.bytes() + triangles_.bytes() + masks_.bytes() + held_->top_buffer.bytes() +
-                    held_->instance_buffer.bytes();
-    report_.host_bytes = held_->trees.counts().bytes + held_->instances.bytes() + held_->masks.words().size_bytes();
-    report_.triangles = held_->trees.counts().triangles;
-    report_.instances = held_->instances.instances();
+    report_.bytes = nodes_.bytes() + triangles_.bytes() + masks_.bytes() + state_->top_buffer.bytes() +
+                    state_->instance_buffer.bytes();
+    report_.host_bytes = state_->trees.counts().bytes + state_->instances.bytes() + state_->masks.words().size_bytes();
+    report_.triangles = state_->trees.counts().triangles;
+    report_.instances = state_->instances.instances();
 }
 
 }  // namespace gnomon::visibility

@@ -52,8 +52,8 @@ private:
         std::uint64_t pose_version = 0;
     };
     enum class Followed : std::uint8_t { same, changed, failed };
-    struct Held {
-        Held(gl::Device& device, const assets::MeshLibrary& library);
+    struct State {
+        State(gl::Device& device, const assets::MeshLibrary& library);
         CasterTrees trees;
         RayMasks masks;
         std::vector<MeshTreePlace> places;  // by mesh
@@ -82,7 +82,7 @@ private:
     gl::Device& device_;
     DeviceArrays nodes_, triangles_;
     MaskBuffer masks_;
-    std::optional<Held> held_;
+    std::optional<State> state_;
     RayBuffers buffers_;
     RayReport report_;
     Retry retry_;

@@ -44,16 +44,16 @@ CasterNeed caster_need(const SceneSnapshot& scene, const shadow::ShadowFrame& fr
     const std::vector<Vector> points = visible_points(scene, frame, demand, samples);
     const LightItem& light = scene.lights[demand];
     const Real size_px = frame.fitted.lights[demand].request.map.resolution_px;
-    std::vector<Vector> held;
+    std::vector<Vector> previous;
     for (const shadow::ShadowView& view : frame.fitted.views) {
         if (view.light != demand) continue;
-        held.clear();
+        previous.clear();
         for (const Vector& p : points)
-            if (holds(view, p, size_px, 0)) held.push_back(p);
+            if (holds(view, p, size_px, 0)) previous.push_back(p);
         need.listed += static_cast<int>(view.casters.count);
         for (std::uint32_t c = view.casters.first; c < view.casters.first + view.casters.count; ++c) {
             const math::Aabb& box = scene.instances[frame.fitted.casters[c]].bounds_ws;
-            for (const Vector& p : held) {
+            for (const Vector& p : previous) {
                 if (!darkens(light, box, p, 0)) continue;
                 ++need.needed;
                 break;

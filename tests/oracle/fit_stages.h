@@ -14,21 +14,21 @@ public:
     ShadowFrame frame;
 
     /// Decides requests for a device that takes maps of `max_px` along an edge.
-    void decide(const SceneSnapshot& scene, const History& held = {}, std::uint32_t max_px = 16384) {
+    void decide(const SceneSnapshot& scene, const History& previous = {}, std::uint32_t max_px = 16384) {
         gl::DeviceInfo device;
         device.max_texture_px = device.max_cube_px = max_px;
-        decide(scene, device, held);
+        decide(scene, device, previous);
     }
-    void decide(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held = {}) {
-        decide_requests(scene, {device, held}, fallbacks_, frame.requests);
+    void decide(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& previous = {}) {
+        decide_requests(scene, {device, previous}, fallbacks_, frame.requests);
         frame.statuses.assign(frame.requests.size(), {});
         for (std::size_t i = 0; i < frame.requests.size(); ++i) frame.statuses[i].skip(frame.requests[i].skip);
     }
     void select(const SceneSnapshot& scene) {
         select_sets(scene, {frame.requests, {}, jobs}, storage, frame.sets, {frame.statuses, {}});
     }
-    void fit(const SceneSnapshot& scene, const History& held = {}, bool budget_active = false) {
-        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, held, {}, budget_active, jobs}, storage,
+    void fit(const SceneSnapshot& scene, const History& previous = {}, bool budget_active = false) {
+        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, previous, {}, budget_active, jobs}, storage,
                   frame.fitted, frame.next_history, {frame.statuses, {}});
     }
 
@@ -41,11 +41,11 @@ private:
 };
 
 /// Returns a frame with its requests, sets and fits.
-inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}, bool budget_active = false) {
+inline ShadowFrame fitted(const SceneSnapshot& scene, const History& previous = {}, bool budget_active = false) {
     FitStages stages;
-    stages.decide(scene, held);
+    stages.decide(scene, previous);
     stages.select(scene);
-    stages.fit(scene, held, budget_active);
+    stages.fit(scene, previous, budget_active);
     return std::move(stages.frame);
 }
 

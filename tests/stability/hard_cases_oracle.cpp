@@ -288,15 +288,15 @@ private:
         const LightItem& light = scene_.lights[l];
         const shadow::ShadowRequest& demand = stages_.frame().fitted.lights[views.front()->light].request;
         const Number margin = Number(demand.map.filtering.widest_texel) / Number(demand.map.resolution_px);
-        const auto held =
+        const auto previous =
             std::find_if(views.begin(), views.end(), [&](const auto* v) { return holds(*v, at, margin); });
-        if (held == views.end()) {
+        if (previous == views.end()) {
             // A local light needs no view where nothing casts.
             if (light.kind == LightKind::directional || !dark.empty())
                 note(verdict_.outside, light.name + ": " + words(at) + " is in no view");
             return;
         }
-        const shadow::IndexRange& range = (*held)->casters;
+        const shadow::IndexRange& range = (*previous)->casters;
         const auto begin = stages_.frame().fitted.casters.begin() + range.first;
         for (const std::uint32_t instance : dark)
             if (std::find(begin, begin + range.count, instance) == begin + range.count)

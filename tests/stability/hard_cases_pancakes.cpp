@@ -31,7 +31,7 @@ std::pair<std::size_t, std::size_t> held_and_before_near(std::vector<std::string
     pancakes(w);
     Stages stages(w);
     stages.run();
-    std::size_t held = 0, before = 0;
+    std::size_t previous = 0, before = 0;
     constexpr int kSteps = 200;
     for (const shadow::ShadowView& view : stages.frame().fitted.views)
         for (int i = 0; i <= kSteps; ++i)
@@ -41,10 +41,10 @@ std::pair<std::size_t, std::size_t> held_and_before_near(std::vector<std::string
                     (1.0 - a - b) * glm::dvec3(kLong[0]) + a * glm::dvec3(kLong[1]) + b * glm::dvec3(kLong[2]);
                 const glm::dvec3 q(glm::dmat4(view.map_from_anchor) * glm::dvec4(p - view.pose.anchor_ws_m, 1.0));
                 if (q.x < 0.0 || q.y < 0.0 || q.x > 1.0 || q.y > 1.0) continue;
-                ++held;
+                ++previous;
                 before += q.z > 1.0;
             }
-    return {held, before};
+    return {previous, before};
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ void pancakes(World& w) {
 }
 void pancakes_are_made_where_depths_are_compared_alone() {
     depth_is_clamped();
-    const auto [held, before] = held_and_before_near({});
-    EXPECT_GT(before, held / 2) << "near begins at the receivers";
+    const auto [previous, before] = held_and_before_near({});
+    EXPECT_GT(before, previous / 2) << "near begins at the receivers";
     // Filters that look for how far away a caster is need it where it stands.
     for (const char* filter : {"filter=pcss", "filter=pcss_moments"}) {
         const auto [there, flattened] = held_and_before_near({filter, "sun_radius_deg=0.6"});

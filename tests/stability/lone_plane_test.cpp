@@ -131,7 +131,7 @@ TEST(LonePlane, IsLitWhereItsNormalsErrorExceedsTheLampsDistanceFromIt) {
                 dark_behind_another += !lookup.look_up(plane, 1.0).lit;
             }
             EXPECT_EQ(dark, 0);
-            EXPECT_GT(dark_behind_another, 0) << "it would be lit whatever the map held";
+            EXPECT_GT(dark_behind_another, 0) << "it would be lit whatever the map previous";
         }
 }
 

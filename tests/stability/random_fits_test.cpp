@@ -45,12 +45,12 @@ struct Tally {
 
 class RandomFitsTest : public ::testing::TestWithParam<LightKind> {
 protected:
-    const ShadowFrame& fit(const SampledScene& scene, ShadowFrame& frame, const History& held = {}) {
+    const ShadowFrame& fit(const SampledScene& scene, ShadowFrame& frame, const History& previous = {}) {
         FitStages stages;
         stages.sampled_depths = scene.sampled_depths;
-        stages.decide(scene, held);
+        stages.decide(scene, previous);
         stages.select(scene);
-        stages.fit(scene, held);
+        stages.fit(scene, previous);
         frame = std::move(stages.frame);
         for (const FitChoice& light : frame.fitted.lights) most_fits = std::max(most_fits, light.fits);
         return frame;

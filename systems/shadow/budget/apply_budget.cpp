@@ -198,13 +198,13 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
     loads_.clear();
     grants_.clear();
     lights_.clear();
-    held_.clear();
-    std::size_t held = 0;
+    histories_.clear();
+    std::size_t history = 0;
     std::uint64_t fixed_bytes = 0;
     for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
         const FitChoice& choice = inputs.fitted.lights[i];
         if (choice.request.skip != Reason::none) continue;
-        const LightFitHistory& entry = next.lights[held++];
+        const LightFitHistory& entry = next.lights[history++];
         if (statuses[i].is_skipped() || choice.views.count == 0) continue;
         if (is_automatic() && !leaves_size(scene.lights[i])) continue;
         if (inputs.waiting_bytes[i]) {
@@ -213,22 +213,22 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
         }
         grants_.push_back(entry.budget.grant);
         lights_.push_back(i);
-        held_.push_back(held - 1);
+        histories_.push_back(history - 1);
     }
     loads_.resize(lights_.size());
     for_each_light(inputs.jobs, loads_.size(), [&](std::size_t i, std::size_t) {
-        loads_[i] = load_of(scene, gpu, inputs, lights_[i], next.lights[held_[i]]);
+        loads_[i] = load_of(scene, gpu, inputs, lights_[i], next.lights[histories_[i]]);
     });
     weigh(scene, inputs);
     return fixed_bytes;
 }
 
-void BudgetStage::apply_automatic(const SceneSnapshot& scene, const FittedViews& fitted, const History& held,
+void BudgetStage::apply_automatic(const SceneSnapshot& scene, const FittedViews& fitted, const History& previous,
                                   std::span<const LightStatus> statuses) {
     given_bytes_ = 0;
     if (automatic_bytes_ == BudgetLimits::kNone) return;
     const WantedBytes wanted = wanted_bytes(scene, fitted, statuses);
-    if (held.short_of_bytes || wanted.limited > automatic_bytes_)
+    if (previous.short_of_bytes || wanted.limited > automatic_bytes_)
         limits_.bytes = std::min(limits_.bytes, automatic_bytes_);
     // A lower limit is what the device has: nothing comes on top of that.
     if (limits_.bytes >= automatic_bytes_) given_bytes_ = wanted.given;
@@ -239,7 +239,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     decisions.clear();
     for (const FitChoice& choice : inputs.fitted.lights) decisions.push_back({choice.request});
     next.short_of_bytes = false;
-    next.frames_since_grants = is_active() ? inputs.held.frames_since_grants : 0;
+    next.frames_since_grants = is_active() ? inputs.previous.frames_since_grants : 0;
     outcomes_.clear();
     if (!is_active()) {
         loads_.clear();
@@ -252,7 +252,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     settle_limits(loads_, limits, factors_, next.frames_since_grants, grants_, scratch_);
     lookups_ns_ = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) {
-        BudgetHistory& history = next.lights[held_[i]].budget;
+        BudgetHistory& history = next.lights[histories_[i]].budget;
         lookups_ns_ += lookup_ns(loads_[i], grants_[i], factors_);
         const bool same = history.grant == grants_[i];
         history.new_frames = same ? history.new_frames - std::min(history.new_frames, 1u) : kNewFrames;
@@ -294,7 +294,7 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, const DrawnViews& dra
             changed += (drawn.has_map(v) ? drawn.updates[v].changed : has_moving) ? 1.0f : 0.0f;
         }
         if (!scene.lights[lights_[i]].tuning.reuse.economy || views == 0.0f) continue;
-        BudgetHistory& history = next.lights[held_[i]].budget;
+        BudgetHistory& history = next.lights[histories_[i]].budget;
         if (history.new_frames > 0) continue;
         float& activity = history.activity;
         const float now = changed / views;

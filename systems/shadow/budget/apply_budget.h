@@ -25,7 +25,7 @@ struct BudgetInputs {
     std::span<const ShadowRequest> requests;  // one per light, without limits
     const ReceiverCasterSets& sets;
     const FittedViews& fitted;
-    const History& held;
+    const History& previous;
     WaitingBytes waiting_bytes;  // MapCache::waiting_bytes(); these lights keep their maps until the next try
     Jobs* jobs = nullptr;        // threads that share the lights; null: the calling one does all
 };
@@ -51,7 +51,7 @@ public:
     }
     /// Applies the automatic limit if lights want more, or still did in the last frame (automatic_limit.h). Call it
     /// after the fits.
-    void apply_automatic(const SceneSnapshot& scene, const FittedViews& fitted, const History& held,
+    void apply_automatic(const SceneSnapshot& scene, const FittedViews& fitted, const History& previous,
                          std::span<const LightStatus> statuses);
     bool is_active() const { return !(limits_ == BudgetLimits{}); }
     const BudgetLimits& limits() const { return limits_; }
@@ -94,7 +94,7 @@ private:
     std::vector<LightLoad> loads_;        // lights that would have maps
     std::vector<QualityLimits> grants_;   // one per load
     std::vector<std::uint32_t> lights_;   // one per load: index of its light
-    std::vector<std::size_t> held_;       // one per load: index into History::lights
+    std::vector<std::size_t> histories_;  // one per load: index into History::lights
     std::vector<BudgetReport> outcomes_;  // one per load
     BudgetScratch scratch_;
     double lookups_ns_ = 0.0;  // time of all loads' lookups within their limits, ns

@@ -120,7 +120,7 @@ glm::dvec3 LampOffsets::step_m() const {
 }
 
 glm::dvec3 LampOffsets::place_of(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light, double share,
-                                 Held& held) {
+                                 KeptPlace& kept) {
     find_near(scene, light, share);
     Signature signature;
     signature.add(share);
@@ -135,16 +135,16 @@ glm::dvec3 LampOffsets::place_of(const SceneSnapshot& scene, const GpuScene& gpu
     });
     if (!any) return light.position_ws_m;
     // Without a version of the scene it is unknown whether casters moved.
-    if (scene.version != 0 && held.signature == signature.value()) return held.place_ws_m;
+    if (scene.version != 0 && kept.signature == signature.value()) return kept.place_ws_m;
     sides_.clear();
     near_.for_each([&](std::uint32_t i) { find_sides(gpu, light, scene.instances[i], share); });
-    held = {signature.value(), light.position_ws_m + step_m()};
-    return held.place_ws_m;
+    kept = {signature.value(), light.position_ws_m + step_m()};
+    return kept.place_ws_m;
 }
 
 void LampOffsets::update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
                          std::vector<glm::dvec3>& lamps_ws_m, std::span<double> cpu_us) {
-    held_.resize(scene.lights.size());
+    kept_.resize(scene.lights.size());
     lamps_ws_m.resize(scene.lights.size());
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
@@ -152,7 +152,7 @@ void LampOffsets::update(const SceneSnapshot& scene, const GpuScene& gpu, std::s
         if (light_facts(light.kind).parallel || requests[i].skip != Reason::none) continue;
         const LightTimer time(cpu_us, i);
         const double share = requests[i].rays.used ? kClearOfPlanes : kClearOfClipping;
-        lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);
+        lamps_ws_m[i] = place_of(scene, gpu, light, share, kept_[i]);
     }
 }
 

@@ -32,7 +32,7 @@ public:
 
 private:
     /// Position of a lamp near a triangle, reused while neither moves.
-    struct Held {
+    struct KeptPlace {
         std::uint64_t signature = 0;  // hash of the lamp's own position and of the casters near it
         glm::dvec3 place_ws_m{0.0};
     };
@@ -45,13 +45,13 @@ private:
     };
 
     glm::dvec3 place_of(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light, double share,
-                        Held& held);
+                        KeptPlace& kept);
     void find_near(const SceneSnapshot& scene, const LightItem& light, double share);
     void find_sides(const GpuScene& gpu, const LightItem& light, const InstanceItem& item, double share);
     void add_side(Side side);
     glm::dvec3 step_m() const;
 
-    std::vector<Held> held_;  // one per light
+    std::vector<KeptPlace> kept_;  // one per light
     IndexSet near_;           // casters with a part near the lamp
     std::vector<Side> sides_;
     std::vector<glm::dvec3> scratch_;

@@ -63,7 +63,7 @@ private:
     void mark_casters(const ReceiverHull& receiver_hull, double reach_m) {
         if (scratch_.polygon.empty()) return;
         const auto seen =
-            view_.held ? std::span<const math::Plane>() : seen_by_the_only_consumer(sets_.arrays.camera_frusta);
+            view_.stays ? std::span<const math::Plane>() : seen_by_the_only_consumer(sets_.arrays.camera_frusta);
         const SweptVolume volume = swept_volume(receiver_hull, scratch_.polygon, seen, reach_m);
         visit_instances(
             scene_, tests_of(volume),
@@ -111,7 +111,7 @@ private:
         double reach_m = reach_.x + reach_.y;
         const glm::dvec3 offset = receiver_hull.origin_ws_m - origin_ws_m;
         const double far_m = view_.depth.far_m + glm::dot(view_.pose.axis_back, origin_ws_m - view_.pose.anchor_ws_m);
-        if (view_.held) {
+        if (view_.stays) {
             assign_rectangle(-view_.plane.half_extent_m, view_.plane.half_extent_m, scratch_.polygon);
             receiver_hull.far_m = far_m;
         } else {
@@ -147,7 +147,7 @@ private:
         const auto same = std::find_if(hulls.begin(), hulls.end(), [&](const ReceiverHull& b) {
             return !b.parallel && b.origin_ws_m == apex_ws_m(view_) && b.axes == frustum.axes;
         });
-        if (view_.held) {
+        if (view_.stays) {
             receiver_hull.origin_ws_m = apex_ws_m(view_);
             receiver_hull.axes = frustum.axes;
             receiver_hull.far_m = view_.depth.far_m;

@@ -15,7 +15,7 @@ struct CasterInputs {
 };
 
 /// Appends the casters of one fitted view to `casters`. These can darken its visible receivers, the filter's width
-/// included. For a view that stays in place (`held`) they are all casters in its map. Dynamic casters come last, each
+/// included. For a view that stays in place (`stays`) they are all casters in its map. Dynamic casters come last, each
 /// group by mesh, then by index. Only this function decides the drawing order. Sets view.casters and
 /// view.static_casters. Call after select_sets() for the same scene and `scratch`.
 void select_view_casters(const SceneSnapshot& scene, const CasterInputs& inputs, ShadowView& view, SetScratch& scratch,

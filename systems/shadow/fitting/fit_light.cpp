@@ -88,10 +88,10 @@ struct FittedSizes {
 
 /// Sets the size of the light's maps that meets its error target. Shrinks only after kSpareFrames frames. Returns
 /// whether the size differs from the fitted one.
-bool settle_size(const LightItem& light, std::span<const ShadowView> views, const LightFitHistory& held,
+bool settle_size(const LightItem& light, std::span<const ShadowView> views, const LightFitHistory& previous,
                  FittedSizes& fitted, std::uint32_t& downsize_frames, ShadowRequest& request) {
     if (views.empty() || !adapts_to_target(light, request)) return false;
-    const bool is_held = request.map.resolution_px == held.size.map_px;
+    const bool is_held = request.map.resolution_px == previous.size.map_px;
     const double target_px = texel_target_px(light.shadow, request.map.filter), error_px = predicted_px(views);
     fitted.note(request.map.resolution_px, meets_target(error_px, target_px));
     const std::uint32_t wanted_px =
@@ -100,23 +100,24 @@ bool settle_size(const LightItem& light, std::span<const ShadowView> views, cons
     const bool spare = is_held && size_px < request.map.resolution_px;
     // Counts past kSpareFrames mean that the smaller size missed the target: a border is a larger share of a smaller
     // map.
-    if (is_held) downsize_frames = spare ? std::min(held.size.downsize_frames + 1, kSpareFrames + 1) : 0;
+    if (is_held) downsize_frames = spare ? std::min(previous.size.downsize_frames + 1, kSpareFrames + 1) : 0;
     if (size_px == request.map.resolution_px || (spare && downsize_frames != kSpareFrames)) return false;
     set_resolution(light, size_px, request);
     return true;
 }
 
 /// Returns whether what is seen needs other sizes. The best number of cascades then may change as well.
-bool has_stepped(const LightFitHistory& held, const LightFitHistory& next) {
-    if (next.splits.near_step != held.splits.near_step || next.splits.far_step != held.splits.far_step) return true;
-    return !std::equal(next.views.begin(), next.views.end(), held.views.begin(),
+bool has_stepped(const LightFitHistory& previous, const LightFitHistory& next) {
+    if (next.splits.near_step != previous.splits.near_step || next.splits.far_step != previous.splits.far_step)
+        return true;
+    return !std::equal(next.views.begin(), next.views.end(), previous.views.begin(),
                        [](const ViewFitHistory& a, const ViewFitHistory& b) { return a.extent_step == b.extent_step; });
 }
 
 }  // namespace
 
-LightFitHistory without_fits(const LightFitHistory& held) {
-    LightFitHistory fresh = held;
+LightFitHistory without_fits(const LightFitHistory& previous) {
+    LightFitHistory fresh = previous;
     fresh.views = {};
     fresh.splits = {};
     fresh.sampled_splits = {};
@@ -143,10 +144,10 @@ LightFit::ArraySizes LightFit::sizes_of(const ReceiverCasterSets& sets) {
 
 std::span<const ShadowView> LightFit::views() const { return std::span(out_.views).subspan(first_view_); }
 
-Reason LightFit::run(const LightFitHistory& held, bool recount, LightFitHistory& next) {
+Reason LightFit::run(const LightFitHistory& previous, bool recount, LightFitHistory& next) {
     forget_views();
     out_.casters.resize(first_caster_);
-    const Reason reason = fit_and_count(held, recount, next) ? select_casters() : Reason::fit_degenerate;
+    const Reason reason = fit_and_count(previous, recount, next) ? select_casters() : Reason::fit_degenerate;
     if (reason != Reason::none) forget_views();
     out_.lights[index_].views = {static_cast<std::uint32_t>(first_view_), static_cast<std::uint32_t>(views().size())};
     return reason;
@@ -159,14 +160,14 @@ void LightFit::request_anew(const ShadowRequest& request) {
 
 void LightFit::forget_views() { out_.views.resize(first_view_); }
 
-bool LightFit::fit_and_count(const LightFitHistory& held, bool recount, LightFitHistory& next) {
-    if (!fit_size(held, next)) return false;
-    if (count_moves(held, next) || (recount && !views().empty())) return choose_count(held, next);
+bool LightFit::fit_and_count(const LightFitHistory& previous, bool recount, LightFitHistory& next) {
+    if (!fit_size(previous, next)) return false;
+    if (count_moves(previous, next) || (recount && !views().empty())) return choose_count(previous, next);
     return true;
 }
 
 /// Fits views without casters for maps of the request's size. Returns false if no finite volume exists.
-bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
+bool LightFit::fit_once(const LightFitHistory& previous, LightFitHistory& next) {
     const ShadowRequest& request = out_.lights[index_].request;
     const LightSetsView sets = out_.sets_of(inputs_.sets, index_);
     const auto error_points = sets.error_points_ws();
@@ -182,7 +183,7 @@ bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
                          request.map.filtering.border_texel,
                          inputs_.sampled_depths,
                          scratch_.fits,
-                         held,
+                         previous,
                          next};
     ++out_.lights[index_].fits;
     if (!light_kind_row(light_.kind).fit(input, out_.views)) return false;
@@ -196,21 +197,21 @@ bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
 }
 
 /// Fits for the size that the accuracy target needs.
-bool LightFit::fit_size(const LightFitHistory& held, LightFitHistory& next) {
+bool LightFit::fit_size(const LightFitHistory& previous, LightFitHistory& next) {
     std::uint32_t downsize_frames = 0;
     FittedSizes sizes;
     bool fitted = false;
     for (std::uint32_t again = 0;; ++again) {
         forget_views();
-        next = held;
-        fitted = fit_once(held, next);
+        next = previous;
+        fitted = fit_once(previous, next);
         // After kMostSizes one more is fitted if they were too small: a border is another share of each size.
         if (!fitted || again > kMostSizes || (again == kMostSizes && has_met_target())) break;
-        if (!settle_size(light_, views(), held, sizes, downsize_frames, request())) break;
+        if (!settle_size(light_, views(), previous, sizes, downsize_frames, request())) break;
         select_sets_again();
     }
     next.size.map_px = adapts_to_target(light_, request()) ? request().map.resolution_px : 0;
-    next.size.downsize_frames = next.size.map_px == held.size.map_px ? downsize_frames : 0;
+    next.size.downsize_frames = next.size.map_px == previous.size.map_px ? downsize_frames : 0;
     return fitted;
 }
 
@@ -220,46 +221,47 @@ double LightFit::target_px() const { return texel_target_px(light_.shadow, out_.
 
 /// Counts the moves of the views since their number was last chosen. Returns true if a search for another number of
 /// cascades is due.
-bool LightFit::count_moves(const LightFitHistory& held, LightFitHistory& next) const {
+bool LightFit::count_moves(const LightFitHistory& previous, LightFitHistory& next) const {
     const ShadowRequest& request = out_.lights[index_].request;
-    const std::uint32_t most = request.limits.max_views, usual = held.count.cascades > 0 ? held.count.cascades : most;
+    const std::uint32_t most = request.limits.max_views,
+                        usual = previous.count.cascades > 0 ? previous.count.cascades : most;
     if (most == 0) next.count.cascades = next.count.moves = 0;
     if (most == 0 || views().empty() || request.map.view_count != std::min(usual, most)) return false;
-    if (held.count.cascades == 0) return true;
-    if (next.views != held.views) ++next.count.moves;
-    return next.size.map_px > held.size.map_px || has_stepped(held, next) || next.count.moves >= kMovesToCount;
+    if (previous.count.cascades == 0) return true;
+    if (next.views != previous.views) ++next.count.moves;
+    return next.size.map_px > previous.size.map_px || has_stepped(previous, next) || next.count.moves >= kMovesToCount;
 }
 
 /// Fits increasing numbers of cascades, doubled each time, and chooses one of them. Each fit starts without history,
 /// since that of other slices does not apply.
-bool LightFit::choose_count(const LightFitHistory& held, LightFitHistory& next) {
-    const LightFitHistory fresh = without_fits(held);
+bool LightFit::choose_count(const LightFitHistory& previous, LightFitHistory& next) {
+    const LightFitHistory fresh = without_fits(previous);
     const ShadowRequest usual = request();
     const std::uint32_t most = usual.limits.max_views;
     std::array<CascadeTrial, kMaxCascades> trials;
     std::size_t tried = 0;
     // Fewer cascades are for a scene that has calmed down. The camera's present motion may end in a frame.
-    const std::uint32_t least = next.count.moves >= kMovesToCount ? 1 : std::max(held.count.cascades, 1u);
+    const std::uint32_t least = next.count.moves >= kMovesToCount ? 1 : std::max(previous.count.cascades, 1u);
     for (std::uint32_t count = std::min(least, most);; count = std::min(2 * count, most)) {
         if (!fit_count(count, usual, fresh, next)) return false;
         const std::uint64_t edge_px = request().map.resolution_px;
         trials[tried++] = {count, predicted_px(views()), count * edge_px * edge_px};
         if (count == most) break;
     }
-    const std::uint32_t chosen = choose_cascades(std::span(trials).first(tried), held.count.cascades, target_px());
-    const bool stays = chosen == held.count.cascades;
-    const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
+    const std::uint32_t chosen = choose_cascades(std::span(trials).first(tried), previous.count.cascades, target_px());
+    const bool stays = chosen == previous.count.cascades;
+    const bool fitted = fit_count(chosen, usual, stays ? previous : fresh, next);
     next.count.cascades = chosen;
     next.count.moves = 0;
     return fitted;
 }
 
-bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& held,
+bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& previous,
                          LightFitHistory& next) {
     request() = usual;
     set_cascades(light_.tuning.cascades, count, request());
-    set_most(light_, usual.limits.max_px, held.size.map_px, request());
-    return fit_size(held, next);
+    set_most(light_, usual.limits.max_px, previous.size.map_px, request());
+    return fit_size(previous, next);
 }
 
 /// Selects the sets again for maps of another size. Only cubes need it: a face's share of its neighbours is a share of

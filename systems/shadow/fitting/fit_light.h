@@ -21,7 +21,7 @@ struct FitInputs {
     const ReceiverCasterSets& sets;
     std::span<const glm::dvec3> lamps_ws_m;  // one per light (lamp_offsets.h); empty: the lights' own positions
     const SampledDepths& sampled_depths;     // depths of an earlier picture; optional
-    const History& held;                     // fit history that the frame before left; empty: none
+    const History& previous;                 // fit history that the frame before left; empty: none
     std::span<const std::uint64_t> moving;   // as DynamicCasters::moving()
     bool budget_active = false;              // a budget is active, or rays lack memory: another filter is for later
     Jobs* jobs = nullptr;                    // threads that share the lights; null: the calling one does all
@@ -46,7 +46,7 @@ public:
 
     /// Fits for the request as it stands and replaces what an earlier run appended. `recount`: also compares other
     /// numbers of a sun's cascades, where the system chooses. Returns why there are no views; Reason::none: there are.
-    Reason run(const LightFitHistory& held, bool recount, LightFitHistory& next);
+    Reason run(const LightFitHistory& previous, bool recount, LightFitHistory& next);
     /// Replaces the request and the sets that follow from its size.
     void request_anew(const ShadowRequest& request);
 
@@ -60,15 +60,16 @@ private:
     static ArraySizes sizes_of(const ReceiverCasterSets& sets);
     ShadowRequest& request() { return out_.lights[index_].request; }
     void forget_views();
-    bool fit_and_count(const LightFitHistory& held, bool recount, LightFitHistory& next);
-    bool fit_once(const LightFitHistory& held, LightFitHistory& next);
-    bool fit_size(const LightFitHistory& held, LightFitHistory& next);
+    bool fit_and_count(const LightFitHistory& previous, bool recount, LightFitHistory& next);
+    bool fit_once(const LightFitHistory& previous, LightFitHistory& next);
+    bool fit_size(const LightFitHistory& previous, LightFitHistory& next);
     bool has_met_target() const;
     double target_px() const;
     bool has_casters_by_depth(const ShadowView& view) const;
-    bool count_moves(const LightFitHistory& held, LightFitHistory& next) const;
-    bool choose_count(const LightFitHistory& held, LightFitHistory& next);
-    bool fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& held, LightFitHistory& next);
+    bool count_moves(const LightFitHistory& previous, LightFitHistory& next) const;
+    bool choose_count(const LightFitHistory& previous, LightFitHistory& next);
+    bool fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& previous,
+                   LightFitHistory& next);
     void select_sets_again();
     Reason select_casters();
 
@@ -83,6 +84,6 @@ private:
 };
 
 /// Returns a light's history without its fits, so that the next fit starts as its first.
-LightFitHistory without_fits(const LightFitHistory& held);
+LightFitHistory without_fits(const LightFitHistory& previous);
 
 }  // namespace gnomon::shadow

@@ -16,36 +16,36 @@ namespace {
 /// depends on that fit's accuracy. Lights without a target, or limited by a budget, keep their filter.
 class TargetFit {
 public:
-    TargetFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, const LightFitHistory& held,
+    TargetFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, const LightFitHistory& previous,
               StageScratch& scratch, FittedViews& out)
         : scene_(scene),
           inputs_(inputs),
           light_(scene.lights[light]),
           index_(light),
-          held_(held),
+          previous_(previous),
           choice_(out.lights[light]),
           fit_(scene, inputs, light, scratch, out),
           targets_(targets_of(light_.shadow)) {}
 
     /// Fits the light. Returns why it has no views; Reason::none: it has some.
     Reason run(LightFitHistory& next) {
-        next.filter = leaves_filter(light_) ? held_.filter : FilterHistory{};
+        next.filter = leaves_filter(light_) ? previous_.filter : FilterHistory{};
         const ShadowFilter filter = choice_.request.map.filter;
-        if (!leaves_filter(light_) || (filter != kDefaultFilter && filter != kExactFilter)) return fit(held_, next);
+        if (!leaves_filter(light_) || (filter != kDefaultFilter && filter != kExactFilter)) return fit(previous_, next);
         return filter == kDefaultFilter ? run_usual(next) : run_exact(next);
     }
 
 private:
-    Reason fit(const LightFitHistory& held, LightFitHistory& next, bool recount = false) {
+    Reason fit(const LightFitHistory& previous, LightFitHistory& next, bool recount = false) {
         const FilterHistory chosen = next.filter;
-        next = held;
-        const Reason reason = fit_.run(held, recount, next);
+        next = previous;
+        const Reason reason = fit_.run(previous, recount, next);
         next.filter = chosen;
         return reason;
     }
     /// Fits without history, since that belongs to another filter's maps.
     Reason fit_anew(ShadowFilter filter, LightFitHistory& next) {
-        const LightFitHistory fresh = without_fits(held_);
+        const LightFitHistory fresh = without_fits(previous_);
         const DeviceMaps device{choice_.request.limits.device_px, choice_.request.map.references};
         fit_.request_anew(request_with(scene_, device, &fresh, index_, filter));
         return fit(fresh, next);
@@ -74,14 +74,14 @@ private:
     }
 
     Reason run_usual(LightFitHistory& next) {
-        const Reason reason = fit(held_, next);
-        if (reason != Reason::none || !(held_.budget.grant == QualityLimits{})) return reason;
-        ShadowFilter chosen = chosen_filter(held_.filter, accuracy(), targets_);
-        const bool turns = chosen == kExactFilter && held_.filter.filter != kExactFilter;
+        const Reason reason = fit(previous_, next);
+        if (reason != Reason::none || !(previous_.budget.grant == QualityLimits{})) return reason;
+        ShadowFilter chosen = chosen_filter(previous_.filter, accuracy(), targets_);
+        const bool turns = chosen == kExactFilter && previous_.filter.filter != kExactFilter;
         if (turns && choice_.request.limits.max_views > 0) {  // another number of cascades may meet the target
-            const Reason recounted = fit(held_, next, true);
+            const Reason recounted = fit(previous_, next, true);
             if (recounted != Reason::none) return recounted;
-            chosen = chosen_filter(held_.filter, accuracy(), targets_);
+            chosen = chosen_filter(previous_.filter, accuracy(), targets_);
         }
         if (chosen == kDefaultFilter) {
             next.filter = {kDefaultFilter, targets_, {}};
@@ -98,27 +98,27 @@ private:
     }
 
     Reason run_exact(LightFitHistory& next) {
-        MapAccuracy usual = held_.filter.usual;
+        MapAccuracy usual = previous_.filter.usual;
         bool passed = false;
-        if (is_trial_due(held_.filter, targets_)) {
+        if (is_trial_due(previous_.filter, targets_)) {
             const ShadowRequest own = choice_.request;
             const Reason reason = fit_anew(kDefaultFilter, next);
             if (reason == Reason::none) {
                 usual = accuracy();
-                passed = chosen_filter(held_.filter, usual, targets_) == kDefaultFilter;
+                passed = chosen_filter(previous_.filter, usual, targets_) == kDefaultFilter;
             }
-            if (passed && comes_back(held_.filter, targets_)) next.filter = {kDefaultFilter, targets_, {}};
+            if (passed && comes_back(previous_.filter, targets_)) next.filter = {kDefaultFilter, targets_, {}};
             if (next.filter.filter == kDefaultFilter && !inputs_.budget_active) return reason;
             fit_.request_anew(own);
         }
-        const Reason reason = fit(held_, next);
+        const Reason reason = fit(previous_, next);
         choice_.default_filter = usual;
         if (next.filter.filter == kExactFilter) note_exact(usual, passed, next);
         return reason;
     }
 
     void note_exact(const MapAccuracy& usual, bool passed, LightFitHistory& next) {
-        next.filter = exact_history(held_.filter, usual, passed, seen_px(), targets_);
+        next.filter = exact_history(previous_.filter, usual, passed, seen_px(), targets_);
         choice_.default_filter = usual;
     }
 
@@ -126,7 +126,7 @@ private:
     const FitInputs& inputs_;
     const LightItem& light_;
     std::uint32_t index_;
-    const LightFitHistory& held_;
+    const LightFitHistory& previous_;
     FitChoice& choice_;
     LightFit fit_;
     AccuracyTargets targets_;
@@ -179,7 +179,7 @@ void begin_lights(const SceneSnapshot& scene, const FitInputs& inputs, FittedVie
         choice.request = inputs.requests[i];
         choice.sets = inputs.sets.lights[i];
         if (choice.request.skip != Reason::none) continue;
-        const LightFitHistory* last = find(inputs.held, scene.lights[i].entity, next.lights.size());
+        const LightFitHistory* last = find(inputs.previous, scene.lights[i].entity, next.lights.size());
         LightFitHistory& history = next.lights.emplace_back(last ? *last : none);
         history.light = scene.lights[i].entity;
         history.rays.fell_back = choice.request.rays.fell_back;

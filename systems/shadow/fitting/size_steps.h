@@ -32,13 +32,13 @@ inline int step_at_or_below(double size) {
 
 /// Returns the last step while it bounds `size` from above (below) by at most `slack` steps beyond the closest one.
 /// Else returns the closest. Growth is followed at once, shrinking only when it is worth a redrawn map.
-inline int hold_above(double size, bool held, int held_step, int slack) {
+inline int hold_above(double size, bool used, int previous_step, int slack) {
     const int closest = step_at_or_above(size);
-    return held && held_step >= closest && held_step <= closest + slack ? held_step : closest;
+    return used && previous_step >= closest && previous_step <= closest + slack ? previous_step : closest;
 }
-inline int hold_below(double size, bool held, int held_step, int slack) {
+inline int hold_below(double size, bool used, int previous_step, int slack) {
     const int closest = step_at_or_below(size);
-    return held && held_step <= closest && held_step >= closest - slack ? held_step : closest;
+    return used && previous_step <= closest && previous_step >= closest - slack ? previous_step : closest;
 }
 
 }  // namespace gnomon::shadow

@@ -19,15 +19,15 @@ std::uint64_t pictures_of(const SceneSnapshot& scene) {
 
 }  // namespace
 
-void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool budget_active,
-                         History& next) {
+void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& previous,
+                         bool budget_active, History& next) {
     const auto uses_rays = [](const FitChoice& choice) {
         return choice.request.skip == Reason::none && choice.request.rays.used;
     };
     const bool any = std::any_of(fitted.lights.begin(), fitted.lights.end(), uses_rays);
     next.pictures = any ? pictures_of(scene) : 0;
     if (!any) return;
-    const bool moved = held.pictures != next.pictures;
+    const bool moved = previous.pictures != next.pictures;
     std::size_t entries = 0;  // next.lights has those lights that the request did not skip
     for (std::uint32_t i = 0; i < fitted.lights.size(); ++i) {
         if (fitted.lights[i].request.skip != Reason::none) continue;

@@ -6,7 +6,7 @@ namespace gnomon::shadow {
 
 /// Counts the frames of is_static() for lights that use rays. Runs after the fits. `budget_active`: a budget is active,
 /// so that no light grows by itself.
-void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool budget_active,
-                         History& next);
+void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& previous,
+                         bool budget_active, History& next);
 
 }  // namespace gnomon::shadow

@@ -19,7 +19,7 @@
 /// History of the fits from frame to frame. Its hysteresis keeps a map in place while the map is still good enough.
 ///
 /// How a fit uses it:
-/// - `FitInput::held`: result of this light's last fit; all `used` are false the first time.
+/// - `FitInput::previous`: result of this light's last fit; all `used` are false the first time.
 /// - `FitInput::next`: starts as a copy of it, and goes to the next frame.
 /// - For each view the fit computes the values that it needs now. If the old values contain these without much excess,
 ///   the fit takes the old ones bit for bit, so that the map's content hash stays. Otherwise it takes new ones.
@@ -161,7 +161,7 @@ struct LightFitHistory {
 inline constexpr std::uint32_t kStaticSunFrames = 30;
 /// Growth of the map's edge: twice the edge leaves a third fewer pixels to rays (docs/results/exact.md).
 inline constexpr float kStaticSunEdges = 2.0f;
-inline bool is_static(const LightFitHistory& held) { return held.rays.static_frames >= kStaticSunFrames; }
+inline bool is_static(const LightFitHistory& previous) { return previous.rays.static_frames >= kStaticSunFrames; }
 
 struct History {
     std::vector<LightFitHistory> lights;    // in the order of the frame's lights
@@ -175,8 +175,8 @@ struct History {
 /// Returns the entry of `light`, or null. `guess`: its probable index.
 inline const LightFitHistory* find(const History& history, ecs::Entity light, std::size_t guess) {
     if (guess < history.lights.size() && history.lights[guess].light == light) return &history.lights[guess];
-    for (const LightFitHistory& held : history.lights)
-        if (held.light == light) return &held;
+    for (const LightFitHistory& previous : history.lights)
+        if (previous.light == light) return &previous;
     return nullptr;
 }
 

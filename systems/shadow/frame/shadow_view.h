@@ -79,7 +79,7 @@ struct ShadowView {
     std::uint32_t receivers = 0;        // number of visible receivers in it
     /// Stays in place while cameras move: its casters are all casters in its map. false: only casters that can darken
     /// receivers visible now.
-    bool held = false;
+    bool stays = false;
     /// Into FittedViews::casters: static casters, then dynamic ones, each by the mesh that is drawn, then by index. The
     /// drawing order matters, because at equal depths the first one drawn stays.
     IndexRange casters;

@@ -236,10 +236,11 @@ bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, 
         desc.shared = true;
     }
     const FilterStorage& storage = filter_row(request.map.filter).storage;
-    const gl::TextureDesc& held = cached.desc;
-    if (cached.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
-                            cached.storage == storage && cached.references == references_of(request) &&
-                            is_same_store(cached.moments, moments_of(held, request.map)))) {
+    const gl::TextureDesc& present = cached.desc;
+    if (cached.texture &&
+        !(present.kind == desc.kind && present.layers == desc.layers && present.format == desc.format &&
+          cached.storage == storage && cached.references == references_of(request) &&
+          is_same_store(cached.moments, moments_of(present, request.map)))) {
         // The light needs a map of another kind. The old map has no use, nor has the record of a failure.
         release(cached);
         cached.allocation.wanted_px = 0;
@@ -295,8 +296,8 @@ bool MapCache::stay() {
 /// Frees the map of a light without views in this frame after kHoldFrames, or at once if the budget leaves it none.
 /// Until then the camera may turn back.
 void MapCache::keep_or_release(ecs::Entity light, Reason skip) {
-    const CachedMap* held = find(light);
-    if (!held) return;
+    const CachedMap* present = find(light);
+    if (!present) return;
     CachedMap& cached = entry(light);
     cached.kept_frame = frame_;
     if (skip == Reason::over_budget || frame_ - cached.last_wanted_frame > kHoldFrames) release(cached);

@@ -42,7 +42,7 @@ void MapCache::evict_unseen(std::uint64_t wanted_bytes) {
 bool MapCache::make_room(std::uint64_t bytes_more, CachedMap* replaced) {
     if (limit_ == kNoLimit) return true;
     yield_spare(bytes_more);
-    for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
+    for (std::uint64_t taken = bytes(); taken > limit_ || bytes_more > limit_ - taken; taken = bytes()) {
         CachedMap* const unseen = least_recently_seen();
         CachedMap* apart = nullptr;
         for (CachedMap& cached : lights_)

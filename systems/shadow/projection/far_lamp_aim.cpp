@@ -72,18 +72,19 @@ math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
 
 }  // namespace
 
-FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const FarLampAim& held) {
+FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const FarLampAim& previous) {
     if (light_facts(light.kind).parallel || !light.has_shadow) return {};
     const math::Aabb lit = lit_box(scene, light);
-    const bool fits = held.used && held.radius_m <= kWidestBall * glm::distance(held.middle_ws_m, light.position_ws_m);
-    if (math::is_empty(lit)) return fits ? held : FarLampAim{};
+    const bool fits =
+        previous.used && previous.radius_m <= kWidestBall * glm::distance(previous.middle_ws_m, light.position_ws_m);
+    if (math::is_empty(lit)) return fits ? previous : FarLampAim{};
     const glm::dvec3 middle_ws_m = math::centre(lit);
     const double distance_m = glm::distance(middle_ws_m, light.position_ws_m);
     const double radius_m = std::max(glm::length(math::half_extent(lit)), kLeastRadius * distance_m);
     const double begins = aims_below(light) * distance_m;
-    if (!(radius_m <= (held.used ? kLeaves : 1.0) * begins) || !std::isfinite(distance_m)) return {};
-    const bool holds = glm::distance(middle_ws_m, held.middle_ws_m) + radius_m <= held.radius_m * (1.0 - kFree);
-    if (fits && holds && held.radius_m <= kMostSpare * radius_m) return held;
+    if (!(radius_m <= (previous.used ? kLeaves : 1.0) * begins) || !std::isfinite(distance_m)) return {};
+    const bool holds = glm::distance(middle_ws_m, previous.middle_ws_m) + radius_m <= previous.radius_m * (1.0 - kFree);
+    if (fits && holds && previous.radius_m <= kMostSpare * radius_m) return previous;
     return {true, middle_ws_m, kSpareSize * radius_m};
 }
 

@@ -11,10 +11,10 @@ namespace gnomon::shadow {
 /// Index of the aimed view in the fit history, beside a cone's faces and its single view.
 inline constexpr std::uint32_t kAimedView = 6;
 
-/// Computes the aim of this frame. Not `used`: the lamp has the maps of its kind. `held`: aim of the last frame. It
+/// Computes the aim of this frame. Not `used`: the lamp has the maps of its kind. `previous`: aim of the last frame. It
 /// stays, bit for bit, while it contains all visible receivers and is at most 32 times too large. Aiming ends at twice
 /// the angle at which it begins.
-FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const FarLampAim& held);
+FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const FarLampAim& previous);
 
 /// Returns the light frustum around the ball; layer 0.
 LightFrustum aimed_frustum(const LightItem& light, const FarLampAim& aim);

@@ -12,9 +12,9 @@ inline constexpr std::uint32_t kConeFaces = 5;
 /// Layer of the single view while both exist; always its index in the fit history.
 inline constexpr std::uint32_t kSingleView = kConeFaces;
 
-/// Computes the transition of this frame from the last one, `held`. Faces fade in above 122.5 degrees and out below
+/// Computes the transition of this frame from the last one, `previous`. Faces fade in above 122.5 degrees and out below
 /// 117.5, by an eighth per frame. A new light, or one too wide for a single view, switches at once.
-SpotCubeTransition next_spot_cube_transition(double outer_cone_rad, const SpotCubeTransition& held);
+SpotCubeTransition next_spot_cube_transition(double outer_cone_rad, const SpotCubeTransition& previous);
 
 inline bool has_single_view(int cube_blend_eighths) { return cube_blend_eighths < 8; }
 inline bool has_faces(int cube_blend_eighths) { return cube_blend_eighths > 0; }

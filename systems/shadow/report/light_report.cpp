@@ -71,7 +71,7 @@ void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t
 struct LookupState {
     bool lost = false;   // there is neither a map to look up nor rays to trace
     bool drawn = false;  // what the light looks up was made or changed in this frame
-    bool held = false;   // a layer of its maps shows earlier casters
+    bool stale = false;  // a layer of its maps shows earlier casters
     bool skipped_for_rays = false;
 };
 
@@ -97,7 +97,7 @@ void explain_state(const LightStatus& status, const BudgetDecision& decision, co
         out.reason = Reason::rays_cheaper;
     } else if (!lookup.drawn) {
         out.state = LightState::reused;
-        out.reason = lookup.held ? Reason::refresh_held : Reason::content_unchanged;
+        out.reason = lookup.stale ? Reason::refresh_held : Reason::content_unchanged;
     } else {
         out.state = LightState::rendered;
     }
@@ -164,7 +164,7 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     for (std::size_t v = views.first; v < views.end(); ++v) {
         if (!in.drawn.has_map(v) || in.drawn.view(v).lit) continue;
         ++out.counts.views;
-        lookup.held = lookup.held || in.drawn.updates[v].hold != Hold::none;
+        lookup.stale = lookup.stale || in.drawn.updates[v].hold != Hold::none;
         out.why.stale_px = std::max(out.why.stale_px, in.drawn.updates[v].stale.error_px);
         add_view(light, in.drawn, v, shown);
     }

@@ -64,28 +64,29 @@ bool adapts_to_target(const LightItem& light, const ShadowRequest& request) {
            !filter_row(request.map.filter).rays;  // rays have no such error
 }
 
-std::uint32_t target_size_px(std::uint32_t size_px, bool held, double predicted_px, double target_px,
+std::uint32_t target_size_px(std::uint32_t size_px, bool exists, double predicted_px, double target_px,
                              std::uint32_t most_px) {
     const double needed_px = std::ceil(size_px * of_texels_px(predicted_px) / target_px);
     if (!(needed_px < most_px)) return most_px;
     const auto least_px = static_cast<std::uint32_t>(std::max(needed_px, 1.0));
     const std::uint32_t wanted_px = std::min((least_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
-    const bool stays = held && wanted_px <= size_px && size_px <= most_px && size_px < kSizeHysteresis * wanted_px;
+    const bool stays = exists && wanted_px <= size_px && size_px <= most_px && size_px < kSizeHysteresis * wanted_px;
     return stays ? size_px : wanted_px;
 }
 
 bool meets_target(double predicted_px, double target_px) { return of_texels_px(predicted_px) <= target_px; }
 
-std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double target_px) {
+std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t previous, double target_px) {
     const std::uint64_t most = trials.back().texels;
     for (const CascadeTrial& trial : trials) {
         if (!meets_target(trial.predicted_px, target_px)) continue;
-        if (trial.texels <= most || (trial.count == held && trial.texels < kSizeHysteresis * most)) return trial.count;
+        if (trial.texels <= most || (trial.count == previous && trial.texels < kSizeHysteresis * most))
+            return trial.count;
     }
     const auto product = [&](const CascadeTrial& trial) {
         const double product_px = trial.count * std::sqrt(trial.count) * of_texels_px(trial.predicted_px);
         if (!(product_px >= 0.0)) return std::numeric_limits<double>::infinity();
-        return trial.count == held ? product_px / kCountHysteresis : product_px;
+        return trial.count == previous ? product_px / kCountHysteresis : product_px;
     };
     return std::min_element(trials.begin(), trials.end(),
                             [&](const CascadeTrial& a, const CascadeTrial& b) { return product(a) < product(b); })

@@ -73,9 +73,9 @@ bool adapts_to_target(const LightItem& light, const ShadowRequest& request);
 
 /// Computes the edge that maps of `size_px` with the error `predicted_px` should get, at most `most_px`. It is the
 /// least multiple of kLeastMap_px with an error up to `target_px` beside the pixel grid's own.
-/// `held`: the maps exist; they keep size_px unless it is too small, or at least twice the needed edge.
+/// `exists`: the maps do; they keep size_px unless it is too small, or at least twice the needed edge.
 /// `predicted_px`: 0 if no receiver is visible. Infinite or NaN: returns most_px.
-std::uint32_t target_size_px(std::uint32_t size_px, bool held, double predicted_px, double target_px,
+std::uint32_t target_size_px(std::uint32_t size_px, bool exists, double predicted_px, double target_px,
                              std::uint32_t most_px);
 
 /// Consecutive frames in which half of a map's edge must meet the target before the map shrinks. A second at 60 Hz is
@@ -93,7 +93,7 @@ struct CascadeTrial {
     std::uint64_t texels = 0;  // sum over all its maps
 };
 
-/// Chooses a sun's number of cascades from trials with rising counts. `held`: the present number; 0: none.
+/// Chooses a sun's number of cascades from trials with rising counts. `previous`: the present number; 0: none.
 ///
 /// It is the fewest that meet the target with at most the texels of the last trial. The present number stays, unless
 /// fewer do, while it meets the target with less than twice those texels.
@@ -105,7 +105,7 @@ struct CascadeTrial {
 /// (docs/results/cost.md): courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one. A
 /// valley of kilometres, where they divide it by 6 to 50, is best with two or four. The present number stays while the
 /// least product is at least 1 / sqrt(2) of its own. Rounding two sides to steps changes a product by as much.
-std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double target_px);
+std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t previous, double target_px);
 
 /// Returns true if maps with the error `predicted_px` meet the target `target_px`.
 bool meets_target(double predicted_px, double target_px);

@@ -102,12 +102,12 @@ ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
 /// Returns the texels of a map's edge per pixel of the picture's larger side. A conservative map costs time to draw and
 /// clear each layer, and saves rays. For a cube's six faces half the edge is best. For a sun's map that is drawn once
 /// (is_static) twice the edge is best (docs/results/exact.md).
-float texels_per_pixel(const LightItem& light, const LightFitHistory* held, const ShadowRequest& request) {
+float texels_per_pixel(const LightItem& light, const LightFitHistory* previous, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(request.map.filter);
     if (!row.rays) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
-    const bool static_sun = held && light_facts(light.kind).parallel && is_static(*held);
+    const bool static_sun = previous && light_facts(light.kind).parallel && is_static(*previous);
     return row.texels_per_pixel * (static_sun ? kStaticSunEdges : 1.0f);
 }
 
@@ -120,17 +120,17 @@ float size_target_px(const LightItem& light, const ShadowRequest& request) {
 /// Sets the size of the light's maps: the given size, or a size computed from the picture's. Where the size follows the
 /// target, the last frame's smaller size stays (accuracy_target.h).
 void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
-                       const LightFitHistory* held, ShadowRequest& request) {
-    const std::uint32_t held_px = held ? held->size.map_px : 0;
+                       const LightFitHistory* previous, ShadowRequest& request) {
+    const std::uint32_t previous_px = previous ? previous->size.map_px : 0;
     const std::uint32_t requested_px = light.shadow.resolution_px;
     request.limits.max_px = requested_px > 0
                                 ? std::clamp(requested_px, std::min(kLeastRequested_px, limit_px), limit_px)
-                                : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
+                                : automatic_resolution(viewport_px, texels_per_pixel(light, previous, request),
                                                        size_target_px(light, request), limit_px);
     if (requested_px > 0 && request.limits.max_px != requested_px) request.note = Reason::resolution_clamped;
     set_resolution(light, request.limits.max_px, request);
-    if (held_px > 0 && held_px < request.limits.max_px && adapts_to_target(light, request))
-        set_resolution(light, held_px, request);
+    if (previous_px > 0 && previous_px < request.limits.max_px && adapts_to_target(light, request))
+        set_resolution(light, previous_px, request);
 }
 
 /// Returns the largest edge of each map of a sun with a size that follows the target.
@@ -143,9 +143,10 @@ std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::u
     return std::max(std::min(usual_px, kUsualSunMap_px), own_px);
 }
 
-void decide_cone(const LightItem& light, const LightFitHistory* held, ShadowRequest& request) {
+void decide_cone(const LightItem& light, const LightFitHistory* previous, ShadowRequest& request) {
     request.projection.cube_blend_eighths =
-        next_spot_cube_transition(light.outer_cone_rad, held ? held->cone : SpotCubeTransition{}).cube_blend_eighths;
+        next_spot_cube_transition(light.outer_cone_rad, previous ? previous->cone : SpotCubeTransition{})
+            .cube_blend_eighths;
     request.map.view_count = cone_layers(request.projection.cube_blend_eighths);
 }
 
@@ -194,13 +195,13 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest
     if (request.map.filtering.cut || request.map.moments.cut) request.note = Reason::filter_cut;
 }
 
-void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowRequest& request) {
+void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t previous_px, ShadowRequest& request) {
     request.limits.max_px = most_px;
-    set_resolution(light, held_px > 0 ? std::min(held_px, most_px) : most_px, request);
+    set_resolution(light, previous_px > 0 ? std::min(previous_px, most_px) : most_px, request);
 }
 
-ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device, const LightFitHistory* held_light,
-                           std::uint32_t i, ShadowFilter filter) {
+ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device,
+                           const LightFitHistory* previous_of_light, std::uint32_t i, ShadowFilter filter) {
     filter = without_size(scene.lights[i], filter);
     glm::uvec2 viewport_px{1, 1};
     for (const ConsumerItem& consumer : scene.consumers) viewport_px = glm::max(viewport_px, consumer.viewport_px);
@@ -211,32 +212,33 @@ ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device,
     request.map.view_count = light_kind_row(light.kind).layers;
     if (light.tuning.maps.short_references) request.map.references = device.references;
     request.limits.device_px = device.edge_px;
-    request.projection.aim = next_far_lamp_aim(scene, light, held_light ? held_light->aim : FarLampAim{});
-    decide_resolution(light, viewport_px, device.edge_px, held_light, request);
+    request.projection.aim = next_far_lamp_aim(scene, light, previous_of_light ? previous_of_light->aim : FarLampAim{});
+    decide_resolution(light, viewport_px, device.edge_px, previous_of_light, request);
     decide_projection(light, request);
     if (light_facts(light.kind).parallel) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
-    if (light_facts(light.kind).cone) decide_cone(light, held_light, request);
+    if (light_facts(light.kind).cone) decide_cone(light, previous_of_light, request);
     if (request.projection.aim.used) {
         request.projection.cube_blend_eighths = 0;
         request.map.view_count = 1;
     }
     if (leaves_count(light, request)) {
         request.limits.max_views = request.map.view_count;
-        if (held_light && held_light->count.cascades > 0 && held_light->count.cascades < request.limits.max_views)
-            set_cascades(light.tuning.cascades, held_light->count.cascades, request);
+        if (previous_of_light && previous_of_light->count.cascades > 0 &&
+            previous_of_light->count.cascades < request.limits.max_views)
+            set_cascades(light.tuning.cascades, previous_of_light->count.cascades, request);
     }
     if (light_facts(light.kind).parallel && adapts_to_target(light, request))
         set_most(light, sun_edge_px(light, viewport_px, device.edge_px, request),
-                 held_light ? held_light->size.map_px : 0, request);
+                 previous_of_light ? previous_of_light->size.map_px : 0, request);
     if (filter_row(request.map.filter).rays) decide_sheets(request);
     return request;
 }
 
-bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
+bool wants_rays(const SceneSnapshot& scene, const History& previous, bool shadows) {
     std::size_t guess = 0;
     for (const LightItem& light : scene.lights) {
         if (wanted(light, shadows) != Reason::none) continue;
-        const LightFitHistory* last = find(held, light.entity, guess++);
+        const LightFitHistory* last = find(previous, light.entity, guess++);
         const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
         if (filter_row(filter).rays) return true;
     }
@@ -246,15 +248,15 @@ bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
 void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, RayFallbacks& fallbacks,
                      std::vector<ShadowRequest>& requests) {
     requests.clear();
-    find_histories(scene.lights, inputs.held, fallbacks.held);
+    find_histories(scene.lights, inputs.previous, fallbacks.previous);
     const auto request = [&](std::uint32_t i, ShadowFilter filter) {
         const bool cube = light_kind_row(scene.lights[i].kind).texture == gl::TextureKind::cube;
         const std::uint32_t limit_px = cube ? inputs.device.max_cube_px : inputs.device.max_texture_px;
-        return request_with(scene, {limit_px, inputs.references}, fallbacks.held[i], i, filter);
+        return request_with(scene, {limit_px, inputs.references}, fallbacks.previous[i], i, filter);
     };
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
-        const LightFitHistory* last = fallbacks.held[i];
+        const LightFitHistory* last = fallbacks.previous[i];
         requests.push_back(request(i, filter_to_fit(light, last ? &last->filter : nullptr)));
         requests.back().skip = wanted(light, inputs.shadows);
     }

@@ -26,22 +26,22 @@ struct DeviceMaps {
     TriangleReferences references{};
 };
 
-/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `held`: the light's
+/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `previous`: the light's
 /// history, null if it has none.
-ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device, const LightFitHistory* held,
+ShadowRequest request_with(const SceneSnapshot& scene, const DeviceMaps& device, const LightFitHistory* previous,
                            std::uint32_t light, ShadowFilter filter);
 
-/// Limits the light's maps to most_px. Sets their size to that limit, or to their last size `held_px` if that is less
-/// and above 0.
-void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowRequest& request);
+/// Limits the light's maps to most_px. Sets their size to that limit, or to their last size `previous_px` if that is
+/// less and above 0.
+void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t previous_px, ShadowRequest& request);
 
 /// Returns true if any light requests a filter that uses rays, before the limit on rays is applied.
-bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows);
+bool wants_rays(const SceneSnapshot& scene, const History& previous, bool shadows);
 
 /// Inputs of the requests of a frame, beside the scene.
 struct RequestInputs {
     const gl::DeviceInfo& device;
-    const History& held;  // history after the last frame
+    const History& previous;  // history after the last frame
     bool shadows = true;  // false: every light counts as disabled
     RayLimit rays = {};
     TriangleReferences references = {};  // format of all maps with triangles

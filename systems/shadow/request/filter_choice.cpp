@@ -8,10 +8,10 @@ namespace {
 
 /// Returns true if the stored choice was made for these targets. Compares bit for bit, because they were stored
 /// unchanged.
-bool is_for(const FilterHistory& held, const AccuracyTargets& targets) { return held.targets == targets; }
+bool is_for(const FilterHistory& previous, const AccuracyTargets& targets) { return previous.targets == targets; }
 
-bool is_seen_as_before(const FilterHistory& held, double seen_px) {
-    return held.seen_px <= seen_px && held.seen_px >= seen_px;
+bool is_seen_as_before(const FilterHistory& previous, double seen_px) {
+    return previous.seen_px <= seen_px && previous.seen_px >= seen_px;
 }
 
 }  // namespace
@@ -30,33 +30,33 @@ bool leaves_filter(const LightItem& light) {
 
 ShadowFilter usual_filter(LightKind kind) { return light_facts(kind).area() ? kAreaFilter : kDefaultFilter; }
 
-ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held) {
+ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* previous) {
     if (light.shadow.filter != ShadowFilter::automatic) return light.shadow.filter;
-    const bool exact = held && held->filter == kExactFilter && leaves_filter(light);
+    const bool exact = previous && previous->filter == kExactFilter && leaves_filter(light);
     return exact ? kExactFilter : usual_filter(light.kind);
 }
 
-ShadowFilter chosen_filter(const FilterHistory& held, const MapAccuracy& usual, const AccuracyTargets& targets) {
-    const bool comes_back = held.filter == kExactFilter && is_for(held, targets);
+ShadowFilter chosen_filter(const FilterHistory& previous, const MapAccuracy& usual, const AccuracyTargets& targets) {
+    const bool comes_back = previous.filter == kExactFilter && is_for(previous, targets);
     return meets_targets(usual, targets, comes_back ? 1.0 / kFilterHysteresis : 1.0) ? kDefaultFilter : kExactFilter;
 }
 
-bool is_trial_due(const FilterHistory& held, const AccuracyTargets& targets) {
-    return !is_for(held, targets) || held.frames == 1 || held.passed > 0;
+bool is_trial_due(const FilterHistory& previous, const AccuracyTargets& targets) {
+    return !is_for(previous, targets) || previous.frames == 1 || previous.passed > 0;
 }
 
-bool comes_back(const FilterHistory& held, const AccuracyTargets& targets) {
-    return !is_for(held, targets) || held.passed + 1 >= kFilterPasses;
+bool comes_back(const FilterHistory& previous, const AccuracyTargets& targets) {
+    return !is_for(previous, targets) || previous.passed + 1 >= kFilterPasses;
 }
 
-FilterHistory exact_history(const FilterHistory& held, const MapAccuracy& usual, bool passed, double seen_px,
+FilterHistory exact_history(const FilterHistory& previous, const MapAccuracy& usual, bool passed, double seen_px,
                             const AccuracyTargets& targets) {
     FilterHistory next{kExactFilter, targets, usual, seen_px, 0, 0};
     if (passed)
-        next.passed = held.passed + 1;
-    else if (held.filter == kExactFilter && held.frames > 1)
-        next.frames = held.frames - 1;
-    else if (held.filter != kExactFilter || held.passed > 0 || !is_seen_as_before(held, seen_px))
+        next.passed = previous.passed + 1;
+    else if (previous.filter == kExactFilter && previous.frames > 1)
+        next.frames = previous.frames - 1;
+    else if (previous.filter != kExactFilter || previous.passed > 0 || !is_seen_as_before(previous, seen_px))
         next.frames = kFilterFrames;
     return next;
 }

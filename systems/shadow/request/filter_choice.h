@@ -37,22 +37,23 @@ ShadowFilter usual_filter(LightKind kind);
 /// bias, because the predicted error assumes the automatic one.
 bool leaves_filter(const LightItem& light);
 
-/// Returns the filter with which the light's request starts. `held`: last choice of the targets, null for a new light.
-ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held);
+/// Returns the filter with which the light's request starts. `previous`: last choice of the targets, null for a new
+/// light.
+ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* previous);
 
 /// Chooses the filter where the largest maps of the default filter have the accuracy `usual`.
-ShadowFilter chosen_filter(const FilterHistory& held, const MapAccuracy& usual, const AccuracyTargets& targets);
+ShadowFilter chosen_filter(const FilterHistory& previous, const MapAccuracy& usual, const AccuracyTargets& targets);
 
 /// Returns true if a light with kExactFilter is due for a trial fit of the default filter.
-bool is_trial_due(const FilterHistory& held, const AccuracyTargets& targets);
+bool is_trial_due(const FilterHistory& previous, const AccuracyTargets& targets);
 
 /// Returns true if a light returns to the default filter after a trial that passed. After a change of the targets it
 /// does at once.
-bool comes_back(const FilterHistory& held, const AccuracyTargets& targets);
+bool comes_back(const FilterHistory& previous, const AccuracyTargets& targets);
 
 /// Computes the history of a light with kExactFilter after a frame. `seen_px`: error of its maps. `usual`:
 /// accuracy of the default filter's maps at the last trial. `passed`: a trial in this frame met the targets.
-FilterHistory exact_history(const FilterHistory& held, const MapAccuracy& usual, bool passed, double seen_px,
+FilterHistory exact_history(const FilterHistory& previous, const MapAccuracy& usual, bool passed, double seen_px,
                             const AccuracyTargets& targets);
 
 }  // namespace gnomon::shadow

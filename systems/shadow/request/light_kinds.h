@@ -26,8 +26,8 @@ struct FitInput {
     float reach_texel = 0.5f;                        // E for borders: FilterSettings::border_texel
     const SampledDepths& sampled_depths;             // depths of an earlier picture; optional
     FitScratch& scratch;                             // reused storage: a fit allocates nothing in a steady state
-    const LightFitHistory& held;                     // history after this light's last fit
-    LightFitHistory& next;                           // output; starts as a copy of `held` (fit_history.h)
+    const LightFitHistory& previous;                 // history after this light's last fit
+    LightFitHistory& next;                           // output; starts as a copy of `previous` (fit_history.h)
 
     std::span<const glm::dvec3> points_of(const ReceiverHull& receiver_hull) const {
         return frame_points_ws.subspan(receiver_hull.receiver_points.first, receiver_hull.receiver_points.count);

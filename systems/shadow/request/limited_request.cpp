@@ -40,13 +40,13 @@ bool is_less(const LightItem& light, const ShadowRequest& wanted, const QualityL
            (grant.refresh_frames > 1 && light.tuning.reuse.economy);
 }
 
-void apply_last_limits(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
+void apply_last_limits(const SceneSnapshot& scene, const History& previous, std::span<const ShadowRequest> requests,
                        std::vector<ShadowRequest>& limited) {
     limited.assign(requests.begin(), requests.end());
     std::size_t guess = 0;
     for (std::size_t i = 0; i < limited.size(); ++i) {
         if (limited[i].skip != Reason::none) continue;
-        const LightFitHistory* last = find(held, scene.lights[i].entity, guess++);
+        const LightFitHistory* last = find(previous, scene.lights[i].entity, guess++);
         if (last && !last->budget.grant.none) limited[i] = granted(scene.lights[i], limited[i], last->budget.grant);
     }
 }

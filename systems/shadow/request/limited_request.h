@@ -16,7 +16,7 @@ ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const
 bool is_less(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant);
 
 /// Applies each light's last limits to its request and writes the results to `limited`, one entry per light.
-void apply_last_limits(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
+void apply_last_limits(const SceneSnapshot& scene, const History& previous, std::span<const ShadowRequest> requests,
                        std::vector<ShadowRequest>& limited);
 
 }  // namespace gnomon::shadow

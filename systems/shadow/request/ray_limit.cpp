@@ -66,7 +66,7 @@ void choose_fallbacks(const SceneSnapshot& scene, const RayLimit& limit, std::sp
     });
     double left = static_cast<double>(limit.rays);
     for (const RayLight& candidate : out.lights) {
-        const LightFitHistory* last = out.held[candidate.light];
+        const LightFitHistory* last = out.previous[candidate.light];
         const double rays = rays_of(scene, scene.lights[candidate.light], requests[candidate.light]);
         if (rays * (last && last->rays.fell_back ? kBackAgain : 1.0) <= left)
             left -= rays;

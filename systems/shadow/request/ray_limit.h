@@ -37,12 +37,12 @@ struct RayLight {
 struct RayFallbacks {
     std::vector<Reason> reasons;               // one per light
     std::vector<RayLight> lights;              // scratch
-    std::vector<const LightFitHistory*> held;  // scratch, one per light: its history, or null
+    std::vector<const LightFitHistory*> previous;  // scratch, one per light: its history, or null
 };
 
 /// Chooses the lights that fall back to RayRow::without_rays, so that the others use no more rays than the limit. Rays
-/// are granted by falling importance. A light that fell back (`out.held`) returns when there is room for a quarter more
-/// than its rays.
+/// are granted by falling importance. A light that fell back (`out.previous`) returns when there is room for a quarter
+/// more than its rays.
 void choose_fallbacks(const SceneSnapshot& scene, const RayLimit& limit, std::span<const ShadowRequest> requests,
                       RayFallbacks& out);
 

@@ -11,8 +11,9 @@ inline constexpr std::uint32_t kMostTriangleBits = 24;
 inline constexpr std::uint32_t kSpareBits = 2;
 
 /// Chooses references that hold any triangle of a scene: one number where both parts have room in it, which takes half
-/// the bytes. `instances`, `triangles`: numbers of places on the device. `held`: the last frame's choice, which stays
-/// while it has room, because all maps have to be made for another one.
-TriangleReferences choose_references(std::uint32_t instances, std::uint32_t triangles, const TriangleReferences& held);
+/// the bytes. `instances`, `triangles`: numbers of places on the device. `previous`: the last frame's choice, which
+/// stays while it has room, because all maps have to be made for another one.
+TriangleReferences choose_references(std::uint32_t instances, std::uint32_t triangles,
+                                     const TriangleReferences& previous);
 
 }  // namespace gnomon::shadow

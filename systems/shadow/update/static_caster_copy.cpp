@@ -27,15 +27,15 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         CachedMap& map = maps.entry(light.entity);
         map.still.layers.resize(map.layers.targets.size());
         StaticCopy::Layer& layer = map.still.layers[view.layer];
-        const bool held = layer.content == assigned.content.still;
+        const bool present = layer.content == assigned.content.still;
         // Copies only what was shown twice. A fit that follows the camera, or an object that moves one step, may never
         // show it again.
         const bool again = layer.drawn == assigned.content.still;
         layer.drawn = assigned.content.still;
-        if (!held && !again) continue;
+        if (!present && !again) continue;
         const auto still = inputs.fitted.static_casters_of(view);
         if (!pays_to_copy(scene, gpu, still, layer_bytes(map)) || !maps.provide_static_copy(map)) continue;
-        plan.copy.use = held ? StaticCopyUse::copy : StaticCopyUse::fill;
+        plan.copy.use = present ? StaticCopyUse::copy : StaticCopyUse::fill;
         plan.copy.texture = map.still.texture;
         plan.copy.triangles = map.still.triangles;
         map.still.last_used_frame = maps.frame();

@@ -90,7 +90,7 @@ protected:
             found += mine.near_m != theirs.depth.near_m || mine.far_m != theirs.depth.far_m;
             found += mine.edge_error_px != theirs.error.edge_px;
             found += mine.to_m != theirs.cascade.seen_to_m || mine.fade_to_m != theirs.cascade.fades_to_m;
-            found += mine.stays != theirs.held || mine.empty != theirs.lit;
+            found += mine.stays != theirs.stays || mine.empty != theirs.lit;
             found += sorted(fits.casters_of(mine)) != sorted(stages->casters_of(theirs));
             found += fits.lights()[mine.light].map_px != stages->lights[mine.light].request.map.resolution_px;
         }

@@ -69,11 +69,11 @@ DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
     span.highest = std::max(span.highest, span.lowest);
     if (fit == ShadowFit::tight || !std::isfinite(span.highest)) return span;
 
-    const SplitHistory& held = input.held.splits;
+    const SplitHistory& previous = input.previous.splits;
     SplitHistory& next = input.next.splits;
     const int patience = fit == ShadowFit::stable ? kHoldSteps : kHoldDepthSteps;
-    next.far_step = hold_above(span.highest, held.used, held.far_step, patience);
-    next.near_step = hold_below(span.lowest, held.used, held.near_step, patience);
+    next.far_step = hold_above(span.highest, previous.used, previous.far_step, patience);
+    next.near_step = hold_below(span.lowest, previous.used, previous.near_step, patience);
     next.used = true;
     return {step_size(next.near_step), step_size(next.far_step)};
 }
@@ -99,7 +99,7 @@ bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const D
                                                            : seen_width_m(input.receiver_points_ws, consumer);
     const SampledSplit split{input.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
     if (tuning.fit == ShadowFit::tight) return sampled_splits(split, ends);
-    return held_sampled_splits(split, input.held.sampled_splits, input.next.sampled_splits, ends);
+    return held_sampled_splits(split, input.previous.sampled_splits, input.next.sampled_splits, ends);
 }
 
 /// Returns the tuning with logarithmic splits where the number of cascades is the system's to choose. It chooses more
@@ -144,7 +144,7 @@ CascadeSlices cascade_slices(const FitInput& input) {
     const bool moves_slowly = input.light.tuning.cascades.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
     const double blend = static_cast<double>(input.request.map.cascade_blend);
     const SplitTransition ends = moves_slowly
-                                     ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
+                                     ? glide(wanted, count, blend, consumer, input.previous.splits, input.next.splits)
                                      : SplitTransition{wanted, wanted, wanted};
     if (!moves_slowly) input.next.splits.count = 0;
     CascadeSlices slices{};

@@ -119,8 +119,9 @@ void end_before(double distance_m, ShadowView& view) {
 /// Returns whether a kept size of some cascade differs from the last frame's.
 bool has_stepped(const FitInput& input) {
     for (std::size_t i = 0; i < kHistoryViews; ++i) {
-        const ViewFitHistory &held = input.held.views[i], &next = input.next.views[i];
-        if (held.used && (next.extent_step != held.extent_step || next.far_step != held.far_step)) return true;
+        const ViewFitHistory &previous = input.previous.views[i], &next = input.next.views[i];
+        if (previous.used && (next.extent_step != previous.extent_step || next.far_step != previous.far_step))
+            return true;
     }
     return false;
 }
@@ -159,9 +160,9 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
                                      : orthographic_view(box, input.request.map.resolution_px);
         view.layer = i;
         view.receivers = receivers;
-        view.held = input.light.tuning.cascades.fit != ShadowFit::tight;
+        view.stays = input.light.tuning.cascades.fit != ShadowFit::tight;
         view.cascade.seen_from_m = alone ? slice.holds_from_m : 0.0;
-        view.cascade.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
+        view.cascade.seen_to_m = alone && view.stays ? slice.serves_to_m : 0.0;
         view.cascade.fades_from_m = alone ? slice.fades_from_m : 0.0;
         view.cascade.fades_to_m = alone ? slice.serves_to_m : 0.0;
         if (view.plane.warp != glm::dvec2(0.0))
@@ -178,18 +179,19 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     if (input.request.projection.perspective_sun) return fit_perspective_sun(input, basis, views);
     const CascadeSlices slices = cascade_slices(input);
     const std::size_t before = views.size();
-    const LightFitHistory& held = input.held;
+    const LightFitHistory& previous = input.previous;
     LightFitHistory& next = input.next;
-    fit_cascades(input, basis, slices, held.size.shrink_cooldown > 0 ? Stepping::larger : Stepping::as_needed, views);
+    fit_cascades(input, basis, slices, previous.size.shrink_cooldown > 0 ? Stepping::larger : Stepping::as_needed,
+                 views);
     const bool too_large =
         std::any_of(next.views.begin(), next.views.end(), [](const ViewFitHistory& view) { return view.too_large; });
-    next.size.oversize_frames = too_large ? held.size.oversize_frames + 1 : 0;
-    next.size.shrink_cooldown = std::max(held.size.shrink_cooldown, 1u) - 1;
+    next.size.oversize_frames = too_large ? previous.size.oversize_frames + 1 : 0;
+    next.size.shrink_cooldown = std::max(previous.size.shrink_cooldown, 1u) - 1;
     if (has_stepped(input) || next.size.oversize_frames >= kSpareFrames) {
         // Each change of a size shows. So sizes that would soon change do so in this frame, and none shrinks for
         // kSpareFrames frames.
         views.resize(before);
-        next.views = held.views;
+        next.views = previous.views;
         fit_cascades(input, basis, slices, Stepping::together, views);
         next.size.oversize_frames = 0;
         next.size.shrink_cooldown = kSpareFrames;

@@ -29,16 +29,16 @@ constexpr Holding kAlong{12, 12, 4};
 constexpr int kSpare = 2;
 
 /// Returns the step for `needed`: the last frame's by hysteresis, or another.
-int held_step_for(double needed, const ViewFitHistory& held, int held_step, const Holding& holding, Stepping stepping,
-                  ViewFitHistory& next) {
+int held_step_for(double needed, const ViewFitHistory& previous, int previous_step, const Holding& holding,
+                  Stepping stepping, ViewFitHistory& next) {
     const int closest = step_at_or_above(needed);
-    if (!held.used) return closest;
+    if (!previous.used) return closest;
     const bool together = stepping == Stepping::together;
     const int least = closest + (together ? holding.headroom : 0);
     const int most = closest + (together ? holding.headroom + kSpare : holding.most);
-    const bool stays = held_step >= least && (stepping == Stepping::larger || held_step <= most);
-    next.too_large = next.too_large || (stays && held_step > closest + holding.patience);
-    return stays ? held_step : closest + holding.headroom;
+    const bool stays = previous_step >= least && (stepping == Stepping::larger || previous_step <= most);
+    next.too_large = next.too_large || (stays && previous_step > closest + holding.patience);
+    return stays ? previous_step : closest + holding.headroom;
 }
 
 /// Range of what is seen along one axis.
@@ -80,7 +80,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     seen.low -= widened;
     seen.high += widened;
 
-    const ViewFitHistory& held = input.light.held.views[input.index];
+    const ViewFitHistory& previous = input.light.previous.views[input.index];
     ViewFitHistory& next = input.light.next.views[input.index];
     const double texel = 1.0 / input.light.request.map.resolution_px;
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // one texel less, for the grid
@@ -88,18 +88,19 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     next.too_large = false;
     for (int axis = 0; axis < 2; ++axis) {
         const CoordinateRange span{seen.low[axis], seen.high[axis]};
-        const int held_step = held.extent_step[axis];
+        const int previous_step = previous.extent_step[axis];
         int& step = next.extent_step[axis];
-        step = held_step_for((span.high - span.low) / room, held, held_step, kAcross, input.stepping, next);
-        const Side side = hold(span, room, texel, {held.used, held.low[axis], held_step}, step);
+        step = held_step_for((span.high - span.low) / room, previous, previous_step, kAcross, input.stepping, next);
+        const Side side = hold(span, room, texel, {previous.used, previous.low[axis], previous_step}, step);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
     constexpr double kDepthRoom = 1.0 - 4.0 * kDepthSlack;
     const CoordinateRange span{seen.low.z, seen.high.z};
     next.far_step =
-        held_step_for((span.high - span.low) / kDepthRoom, held, held.far_step, kAlong, input.stepping, next);
-    const Side depth = hold(span, kDepthRoom, kDepthSlack, {held.used, held.near_m, held.far_step}, next.far_step);
+        held_step_for((span.high - span.low) / kDepthRoom, previous, previous.far_step, kAlong, input.stepping, next);
+    const Side depth =
+        hold(span, kDepthRoom, kDepthSlack, {previous.used, previous.near_m, previous.far_step}, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;
     next.used = true;

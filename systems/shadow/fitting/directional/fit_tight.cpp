@@ -40,8 +40,8 @@ bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
     const glm::dvec2 middle = 0.5 * (rectangle.min + rectangle.max);
     const glm::dvec3 centre_ws =
         origin_ws + box.axes[0] * middle.x + box.axes[1] * middle.y + box.axes[2] * (0.5 * (lowest + highest));
-    const glm::dvec2 held = glm::max(extent, least);
-    place(input, centre_ws, {with_border(held.x, input.light), with_border(held.y, input.light)}, highest - lowest,
+    const glm::dvec2 sides = glm::max(extent, least);
+    place(input, centre_ws, {with_border(sides.x, input.light), with_border(sides.y, input.light)}, highest - lowest,
           box);
     return true;
 }

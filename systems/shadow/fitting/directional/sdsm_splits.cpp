@@ -121,15 +121,15 @@ bool sampled_splits(const SampledSplit& split, CascadeSplitDistances& ends_m) {
     return true;
 }
 
-bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& held, SampledSplitHistory& next,
+bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& previous, SampledSplitHistory& next,
                          CascadeSplitDistances& ends_m) {
     constexpr double kCostHysteresis = 1.1;
     if (!knows(split)) return false;
     const Counted bins = counted(split);
     if (bins.empty()) return false;
     ends_m = best_ends(bins, split.count);
-    if (held.count == split.count) {
-        CascadeSplitDistances stay = held.ends_m;
+    if (previous.count == split.count) {
+        CascadeSplitDistances stay = previous.ends_m;
         stay[0] = split.whole.lowest;
         for (std::uint32_t i = 1; i < split.count; ++i) stay[i] = std::clamp(stay[i], stay[i - 1], split.whole.highest);
         stay[split.count] = split.whole.highest;

@@ -24,9 +24,9 @@ struct SampledSplit {
 /// The first and the last distance equal `whole`; the distances never fall. Returns false if this camera has no counts.
 bool sampled_splits(const SampledSplit& split, CascadeSplitDistances& ends_m);
 
-/// Does the same with hysteresis: keeps `held` while its cost is at most a tenth above the least. Counts flicker while
-/// the camera moves.
-bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& held, SampledSplitHistory& next,
+/// Does the same with hysteresis: keeps `previous` while its cost is at most a tenth above the least. Counts flicker
+/// while the camera moves.
+bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& previous, SampledSplitHistory& next,
                          CascadeSplitDistances& ends_m);
 
 }  // namespace gnomon::shadow

@@ -15,14 +15,14 @@ constexpr double kGlide = kMostFade / 2.0, kHastyGlide = kMostFade / 4.0;
 
 /// Bounds the change of a static point's view distance since the last frame, for a point seen at `distance_m`, metres.
 /// The change is linear across the view, so that a corner has the most.
-double carried_m(const SplitHistory& held, const ConsumerItem& now, double distance_m) {
+double carried_m(const SplitHistory& previous, const ConsumerItem& now, double distance_m) {
     const bool flat = now.projection == CameraProjection::orthographic;
     const double half_y = flat ? now.half_height_m : distance_m * std::tan(0.5 * now.fov_y_rad);
     double most = 0.0;
     for (const double x : {-half_y, half_y})
         for (const double y : {-half_y, half_y}) {
             const glm::dvec3 corner_ws =
-                held.position_ws_m + held.rotation_ws * glm::dvec3(x * aspect(now), y, -distance_m);
+                previous.position_ws_m + previous.rotation_ws * glm::dvec3(x * aspect(now), y, -distance_m);
             const double distance_now_m = -glm::dot(corner_ws - now.position_ws_m, now.rotation_ws[2]);
             most = std::max(most, std::abs(distance_now_m - distance_m));
         }
@@ -31,7 +31,7 @@ double carried_m(const SplitHistory& held, const ConsumerItem& now, double dista
 
 /// Returns the share of the remaining way that the splits may move in this frame, 0 to 1.
 double next_share(const SplitTransition& ends, std::uint32_t count, double blend, const ConsumerItem& consumer,
-                  const SplitHistory& held) {
+                  const SplitHistory& previous) {
     double share = 1.0;
     for (std::uint32_t i = 1; i < count; ++i) {
         const double start_m = fade_start(ends.at_m, i, blend), to_start_m = fade_start(ends.to_m, i, blend);
@@ -39,7 +39,7 @@ double next_share(const SplitTransition& ends, std::uint32_t count, double blend
         const double way_m = std::max(std::abs(ends.to_m[i] - ends.at_m[i]), std::abs(to_start_m - start_m));
         if (!(band_m > 0.0) || !(way_m > 0.0)) continue;
         const double carried =
-            std::max(carried_m(held, consumer, start_m), carried_m(held, consumer, ends.at_m[i])) / band_m;
+            std::max(carried_m(previous, consumer, start_m), carried_m(previous, consumer, ends.at_m[i])) / band_m;
         if (!(carried < 1.0)) return 1.0;  // no point stays long enough to be seen passing
         const double room = carried < kMostFade ? std::min(kMostFade - carried, kGlide) : kHastyGlide;
         share = std::min(share, room * band_m / way_m);
@@ -60,12 +60,12 @@ double fade_start(const CascadeSplitDistances& ends_m, std::uint32_t i, double b
 }
 
 SplitTransition glide(const CascadeSplitDistances& wanted_m, std::uint32_t count, double blend,
-                      const ConsumerItem& consumer, const SplitHistory& held, SplitHistory& next) {
+                      const ConsumerItem& consumer, const SplitHistory& previous, SplitHistory& next) {
     SplitTransition ends{wanted_m, wanted_m, wanted_m};
-    if (held.count == count && blend > 0.0 && rises(held.at_m, count)) {
-        const bool goes_on = held.to_m == wanted_m && rises(held.from_m, count);
-        ends = {held.at_m, goes_on ? held.from_m : held.at_m, wanted_m};
-        const double share = next_share(ends, count, blend, consumer, held);
+    if (previous.count == count && blend > 0.0 && rises(previous.at_m, count)) {
+        const bool goes_on = previous.to_m == wanted_m && rises(previous.from_m, count);
+        ends = {previous.at_m, goes_on ? previous.from_m : previous.at_m, wanted_m};
+        const double share = next_share(ends, count, blend, consumer, previous);
         for (std::uint32_t i = 0; i <= count; ++i)
             ends.at_m[i] = share < 1.0 ? ends.at_m[i] + share * (wanted_m[i] - ends.at_m[i]) : wanted_m[i];
         if (ends.at_m == wanted_m) ends.from_m = wanted_m;

@@ -22,6 +22,6 @@ double fade_start(const CascadeSplitDistances& ends_m, std::uint32_t i, double b
 /// most kMostFade, camera motion included, unless that alone is more. Without history, without a band to fade in, or
 /// after a leap of the camera across whole bands, the wanted splits are used at once.
 SplitTransition glide(const CascadeSplitDistances& wanted_m, std::uint32_t count, double blend,
-                      const ConsumerItem& consumer, const SplitHistory& held, SplitHistory& next);
+                      const ConsumerItem& consumer, const SplitHistory& previous, SplitHistory& next);
 
 }  // namespace gnomon::shadow

@@ -37,13 +37,13 @@ double anchored_m(const FitInput& input) {
 
 /// Returns the depth range of the view. In an aimed view it is as short as the lit sphere, so that depths resolve a
 /// share of the range instead of the distance.
-PerspectiveRange depth_range(const FitInput& input, const FrustumContent& content, const ViewFitHistory& held,
+PerspectiveRange depth_range(const FitInput& input, const FrustumContent& content, const ViewFitHistory& previous,
                              ViewFitHistory& next) {
     const double anchor_m = anchored_m(input), nearest_m = content.nearest_m, farthest_m = content.farthest_m;
     const bool near_is_free = is_near_free(input.request);
-    if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
+    if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, previous, next);
     return held_range_around({anchor_m, input.request.projection.aim.radius_m}, nearest_m, farthest_m, near_is_free,
-                             held, next);
+                             previous, next);
 }
 
 }  // namespace
@@ -53,15 +53,15 @@ bool fit_frustum(const FitInput& input, const LightFrustum& frustum, const Recei
     const TangentRectangle whole{frustum.low, frustum.high};
     FrustumContent content = visible_content(input, receiver_hull, whole);
     if (!content.receivers) return true;
-    const ViewFitHistory& held = input.held.views[frustum.held_as];
-    ViewFitHistory next = held;
-    const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
+    const ViewFitHistory& previous = input.previous.views[frustum.held_as];
+    ViewFitHistory next = previous;
+    const TangentRectangle crop = held_rectangle(content.footprint, whole, previous, next);
     const bool has_size = needs_distances(input.request.map.filtering);
     const auto reach = static_cast<double>(input.reach_texel);
     include_casters(input, receiver_hull, has_size ? with_border(crop, input.request.map.resolution_px, reach) : crop,
                     content);
     if (!content.casters) return true;
-    const PerspectiveRange range = overridden(input.request.projection, depth_range(input, content, held, next));
+    const PerspectiveRange range = overridden(input.request.projection, depth_range(input, content, previous, next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[frustum.held_as] = next;
@@ -70,7 +70,7 @@ bool fit_frustum(const FitInput& input, const LightFrustum& frustum, const Recei
     ShadowView view = perspective_view(receiver_hull.origin_ws_m, frustum.axes,
                                        with_border(crop, size_px, border_texel), range, size_px, anchored_m(input));
     view.layer = frustum.layer;
-    view.held = true;
+    view.stays = true;
     views.push_back(view);
     return true;
 }

@@ -26,7 +26,7 @@ ShadowView face_view(const FitInput& input, const ReceiverHull& receiver_hull, c
                                        input.request.map.resolution_px);
     view.projection = ViewProjection::cube_face;
     view.layer = face;
-    view.held = true;
+    view.stays = true;
     return view;
 }
 
@@ -49,10 +49,10 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
         farthest_m = std::max(farthest_m, faces[i].farthest_m);
     }
     if (!any) return true;
-    ViewFitHistory next = input.held.views[0];
+    ViewFitHistory next = input.previous.views[0];
     const PerspectiveRange range =
         overridden(input.request.projection,
-                   held_range(nearest_m, farthest_m, is_near_free(input.request), input.held.views[0], next));
+                   held_range(nearest_m, farthest_m, is_near_free(input.request), input.previous.views[0], next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[0] = next;

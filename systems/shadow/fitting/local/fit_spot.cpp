@@ -8,7 +8,7 @@
 namespace gnomon::shadow {
 
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {
-    input.next.cone = next_spot_cube_transition(input.light.outer_cone_rad, input.held.cone);
+    input.next.cone = next_spot_cube_transition(input.light.outer_cone_rad, input.previous.cone);
     input.next.aim = input.request.projection.aim;
     const LightFrusta frusta = light_frusta(input.light, input.request);
     for (std::uint32_t i = 0; i < frusta.count; ++i)

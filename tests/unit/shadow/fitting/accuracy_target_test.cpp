@@ -98,11 +98,11 @@ TEST_P(Contract, FindsTheSameAgainWhileNothingChanges) {
     for (int i = 0; i < 100; ++i) {
         const SceneSnapshot s = scene(random);
         const ShadowFrame first = fitted(s);
-        History held = first.next_history;
+        History previous = first.next_history;
         for (std::uint32_t f = 0; f < kSpareFrames + 4; ++f) {
-            const ShadowFrame next = fitted(s, held);
+            const ShadowFrame next = fitted(s, previous);
             ASSERT_EQ(first.fitted.lights[0].request.map.resolution_px, next.fitted.lights[0].request.map.resolution_px) << f;
-            held = next.next_history;
+            previous = next.next_history;
         }
     }
 }
@@ -113,13 +113,13 @@ TEST_P(Contract, KeepsItsSizeWhileTheCameraSways) {
         SceneSnapshot s = scene(random);
         s.lights[0].shadow.max_error_px = 4.0f;
         const glm::dvec3 from = s.consumers[0].position_ws_m;
-        History held;
+        History previous;
         std::uint32_t last = 0;
         int shrinks = 0;
         for (int f = 0; f < 60; ++f) {
             s.consumers[0].position_ws_m = from * (1.0 + 0.02 * std::sin(0.9 * f));  // seven frames to and fro
-            const ShadowFrame frame = fitted(s, held);
-            held = frame.next_history;
+            const ShadowFrame frame = fitted(s, previous);
+            previous = frame.next_history;
             if (frame.fitted.views.empty()) continue;
             const std::uint32_t size = frame.fitted.lights[0].request.map.resolution_px;
             shrinks += last > size ? 1 : 0;
@@ -141,13 +141,13 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
             s.lights[0].shadow.max_error_px = 8.0f;
             const std::uint32_t before = fine.fitted.lights[0].request.map.resolution_px, enough = fitted(s).fitted.lights[0].request.map.resolution_px;
             if (fine.fitted.views.empty() || enough > before / 2) continue;
-            History held = fine.next_history;
+            History previous = fine.next_history;
             for (std::uint32_t f = 1; f < kSpareFrames; ++f) {
-                const ShadowFrame frame = fitted(s, held);
+                const ShadowFrame frame = fitted(s, previous);
                 ASSERT_EQ(frame.fitted.lights[0].request.map.resolution_px, before) << f;
-                held = frame.next_history;
+                previous = frame.next_history;
             }
-            const ShadowFrame after = fitted(s, held);
+            const ShadowFrame after = fitted(s, previous);
             EXPECT_LE(after.fitted.lights[0].request.map.resolution_px, before);  // half is tried, and may be too small
             given_up += after.fitted.lights[0].request.map.resolution_px < before ? 1 : 0;
             EXPECT_TRUE(meets_target(predicted_px(after), 8.0));
@@ -181,11 +181,11 @@ TEST_P(Contract, ComesToRest) {
             if (fine.fitted.views.empty() || fine.fitted.lights[0].request.map.resolution_px != 2 * kLeastMap_px) continue;
             for (int step = 0; step < 12; ++step) {
                 wish_px *= 1.1f;
-                History held = fine.next_history;
+                History previous = fine.next_history;
                 // A size may be tried for so long, and another one be kept as long after it.
-                for (std::uint32_t f = 0; f < 3 * kSpareFrames; ++f) held = fitted(s, held).next_history;
-                EXPECT_TRUE(fitted(s, held).next_history == held) << i;
-                tried_in_vain += held.lights[0].size.downsize_frames > kSpareFrames ? 1 : 0;
+                for (std::uint32_t f = 0; f < 3 * kSpareFrames; ++f) previous = fitted(s, previous).next_history;
+                EXPECT_TRUE(fitted(s, previous).next_history == previous) << i;
+                tried_in_vain += previous.lights[0].size.downsize_frames > kSpareFrames ? 1 : 0;
             }
         }
     }

@@ -11,10 +11,10 @@
 namespace gnomon::shadow {
 namespace {
 
-std::uint32_t chosen(std::vector<double> predicted_px, std::vector<std::uint64_t> texels, std::uint32_t held = 0) {
+std::uint32_t chosen(std::vector<double> predicted_px, std::vector<std::uint64_t> texels, std::uint32_t previous = 0) {
     std::vector<CascadeTrial> trials;
     for (std::uint32_t i = 0; i < texels.size(); ++i) trials.push_back({1u << i, predicted_px[i], texels[i]});
-    return choose_cascades(trials, held, 1.0);
+    return choose_cascades(trials, previous, 1.0);
 }
 
 TEST(ContractCascades, AreTheFewestThatMeetTheTargetWithNoMoreTexels) {
@@ -116,18 +116,18 @@ TEST_F(CountedCascades, StayWhileTheCameraSwaysAndComeToRest) {
     for (const double far_m : {20.5, 25.0, 200.0}) {
         SceneSnapshot s = scene(20.0, far_m);
         s.lights[0].shadow.max_error_px = 4.0f;
-        History held;
+        History previous;
         std::uint32_t changes = 0, last = 0;
         for (int f = 0; f < 200; ++f) {
             s.consumers[0].position_ws_m.z = 0.3 * std::sin(0.9 * f);
-            const ShadowFrame frame = fitted(s, held);
-            held = frame.next_history;
+            const ShadowFrame frame = fitted(s, previous);
+            previous = frame.next_history;
             changes += f > 0 && last != frame.fitted.lights[0].request.map.view_count ? 1 : 0;
             last = frame.fitted.lights[0].request.map.view_count;
         }
         EXPECT_LE(changes, 1u) << far_m;
-        for (int f = 0; f < 3; ++f) held = fitted(s, held).next_history;
-        EXPECT_TRUE(fitted(s, held).next_history == held) << far_m;
+        for (int f = 0; f < 3; ++f) previous = fitted(s, previous).next_history;
+        EXPECT_TRUE(fitted(s, previous).next_history == previous) << far_m;
     }
 }
 
@@ -138,12 +138,12 @@ TEST_F(CountedCascades, HardlyChangeOverRandomScenesWhileTheCameraSways) {
         SceneSnapshot s = random.scene(LightKind::directional);
         s.lights[0].shadow = {.filter = ShadowFilter::triangles, .max_error_px = 4.0f};
         const glm::dvec3 from = s.consumers[0].position_ws_m;
-        History held;
+        History previous;
         std::uint32_t last = 0;
         for (int f = 0; f < 120; ++f) {
             s.consumers[0].position_ws_m = from * (1.0 + 0.02 * std::sin(0.9 * f));  // seven frames to and fro
-            const ShadowFrame frame = fitted(s, held);
-            held = frame.next_history;
+            const ShadowFrame frame = fitted(s, previous);
+            previous = frame.next_history;
             if (frame.fitted.views.empty()) continue;
             changes += last > 0 && last != frame.fitted.lights[0].request.map.view_count ? 1 : 0;
             last = frame.fitted.lights[0].request.map.view_count;

@@ -155,18 +155,18 @@ TEST(FarLampAim, LeavesALampThatLightsMuchOfWhatItSeesItsOwnMaps) {
 
 TEST(FarLampAim, StaysWhileTheCameraTurnsAndWalksALittle) {
     SceneSnapshot scene = yard(5e3);
-    History held;
-    ShadowFrame frame = fitted(scene, held);
+    History previous;
+    ShadowFrame frame = fitted(scene, previous);
     ASSERT_TRUE(aimed_view(frame));
     const FarLampAim aim = frame.fitted.lights[0].request.projection.aim;
     int changes = 0;
     for (int i = 0; i < 200; ++i) {
-        held = frame.next_history;
+        previous = frame.next_history;
         const ShadowView before = frame.fitted.views[0];
         const double turn = 0.3 * std::sin(0.05 * i);
         scene.consumers[0].position_ws_m = {3.0 * turn, 6.0, 9.0 + turn};
         scene.consumers[0].rotation_ws = math::basis_from_back({turn, 6.0, 9.0});
-        frame = fitted(scene, held);
+        frame = fitted(scene, previous);
         ASSERT_TRUE(aimed_view(frame));
         EXPECT_EQ(frame.fitted.lights[0].request.projection.aim, aim);
         changes += frame.fitted.views[0].clip_from_anchor != before.clip_from_anchor;
@@ -177,11 +177,11 @@ TEST(FarLampAim, StaysWhileTheCameraTurnsAndWalksALittle) {
 
 TEST(FarLampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
     SceneSnapshot scene = yard(100.0);
-    History held;
+    History previous;
     const auto aims_at = [&](double distance_m) {
         scene.lights[0].position_ws_m = glm::normalize(scene.lights[0].position_ws_m) * distance_m;
-        const ShadowFrame frame = fitted(scene, held);
-        held = frame.next_history;
+        const ShadowFrame frame = fitted(scene, previous);
+        previous = frame.next_history;
         return frame.fitted.lights[0].request.projection.aim.used;
     };
     double begins_m = 50.0;
@@ -202,7 +202,7 @@ TEST(FarLampAim, IsTheSameInWhateverOrderReceiversAreFound) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
         SceneSnapshot scene = far_scene(random, kLamps[round % 2], 20.0 * std::exp2(0.02 * round));
         const FarLampAim fresh = next_far_lamp_aim(scene, scene.lights[0], {});
-        const FarLampAim held = next_far_lamp_aim(scene, scene.lights[0], {true, {0.0, 0.0, 0.0}, 40.0});
+        const FarLampAim previous = next_far_lamp_aim(scene, scene.lights[0], {true, {0.0, 0.0, 0.0}, 40.0});
         std::reverse(scene.instances.begin(), scene.instances.end());
         scene.tree_version = ~std::uint64_t{0};  // all are visited, in this order
         const FarLampAim other = next_far_lamp_aim(scene, scene.lights[0], {});
@@ -210,8 +210,8 @@ TEST(FarLampAim, IsTheSameInWhateverOrderReceiversAreFound) {
         EXPECT_EQ(fresh.used, other.used);
         EXPECT_EQ(fresh.middle_ws_m, other.middle_ws_m);
         EXPECT_EQ(fresh.radius_m, other.radius_m);
-        EXPECT_EQ(held.used, other_held.used);
-        EXPECT_EQ(held.radius_m, other_held.radius_m);
+        EXPECT_EQ(previous.used, other_held.used);
+        EXPECT_EQ(previous.radius_m, other_held.radius_m);
         ++(fresh.used ? aimed : wide);
     }
     EXPECT_GT(aimed, 40);

@@ -42,42 +42,43 @@ TEST(FilterChoice, ComesBackOnceTheUsualOneErrsByLessThanItMay) {
     EXPECT_EQ(chosen_filter(keeping, stated_maps(1.42, 1.0), kBothTargets), kExactFilter);
     EXPECT_EQ(chosen_filter(keeping, stated_maps(1.0, 1.42), kBothTargets), kExactFilter);
     EXPECT_EQ(chosen_filter(keeping, stated_maps(1.41, 1.41), kBothTargets), kDefaultFilter);
-    EXPECT_EQ(chosen_filter(keeping, stated_maps(2.9, 1.9), {3.0, 2.0}), kDefaultFilter) << "another word: nothing is held of it";
+    EXPECT_EQ(chosen_filter(keeping, stated_maps(2.9, 1.9), {3.0, 2.0}), kDefaultFilter)
+        << "another word: nothing is previous of it";
     EXPECT_EQ(chosen_filter(keeping, stated_maps(1.9, 2.9), {2.0, 3.0}), kDefaultFilter);
 }
 
 TEST(FilterChoice, IsTriedAgainASecondAfterWhatIsSeenChangedAndNotBefore) {
     const MapAccuracy usual = stated_maps(9.0, 4.0), later = stated_maps(8.0, 4.0);
-    FilterHistory held = exact_history({}, usual, false, 1.0, kOfEdges);
-    EXPECT_EQ(held.filter, kExactFilter);
-    EXPECT_EQ(held.frames, kFilterFrames);
+    FilterHistory previous = exact_history({}, usual, false, 1.0, kOfEdges);
+    EXPECT_EQ(previous.filter, kExactFilter);
+    EXPECT_EQ(previous.frames, kFilterFrames);
     for (std::uint32_t frame = kFilterFrames; frame > 1; --frame) {
-        EXPECT_FALSE(is_trial_due(held, kOfEdges)) << frame;
-        held = exact_history(held, usual, false, 1.0 + frame, kOfEdges);
+        EXPECT_FALSE(is_trial_due(previous, kOfEdges)) << frame;
+        previous = exact_history(previous, usual, false, 1.0 + frame, kOfEdges);
     }
-    EXPECT_TRUE(is_trial_due(held, kOfEdges));
-    held = exact_history(held, later, false, held.seen_px, kOfEdges);
-    EXPECT_EQ(held.frames, 0u) << "all is as it was: at rest";
-    EXPECT_FALSE(is_trial_due(held, kOfEdges));
-    EXPECT_EQ(exact_history(held, later, false, held.seen_px, kOfEdges), held);
-    EXPECT_EQ(exact_history(held, later, false, held.seen_px + 1.0, kOfEdges).frames, kFilterFrames);
-    EXPECT_TRUE(is_trial_due(held, {2.5, 0.0})) << "another word";
-    EXPECT_TRUE(is_trial_due(held, kBothTargets)) << "another word";
+    EXPECT_TRUE(is_trial_due(previous, kOfEdges));
+    previous = exact_history(previous, later, false, previous.seen_px, kOfEdges);
+    EXPECT_EQ(previous.frames, 0u) << "all is as it was: at rest";
+    EXPECT_FALSE(is_trial_due(previous, kOfEdges));
+    EXPECT_EQ(exact_history(previous, later, false, previous.seen_px, kOfEdges), previous);
+    EXPECT_EQ(exact_history(previous, later, false, previous.seen_px + 1.0, kOfEdges).frames, kFilterFrames);
+    EXPECT_TRUE(is_trial_due(previous, {2.5, 0.0})) << "another word";
+    EXPECT_TRUE(is_trial_due(previous, kBothTargets)) << "another word";
 }
 
 TEST(FilterChoice, ComesBackOnlyAfterEveryFrameOfHalfASecondPassed) {
-    FilterHistory held{kExactFilter, kOfEdges, stated_maps(9.0, 4.0), 1.0, 1, 0};
+    FilterHistory previous{kExactFilter, kOfEdges, stated_maps(9.0, 4.0), 1.0, 1, 0};
     for (std::uint32_t pass = 1; pass < kFilterPasses; ++pass) {
-        EXPECT_TRUE(is_trial_due(held, kOfEdges));
-        EXPECT_FALSE(comes_back(held, kOfEdges)) << pass;
-        EXPECT_TRUE(comes_back(held, kOfWidth)) << "another word: at once";
-        held = exact_history(held, stated_maps(1.0, 4.0), true, 1.0, kOfEdges);
+        EXPECT_TRUE(is_trial_due(previous, kOfEdges));
+        EXPECT_FALSE(comes_back(previous, kOfEdges)) << pass;
+        EXPECT_TRUE(comes_back(previous, kOfWidth)) << "another word: at once";
+        previous = exact_history(previous, stated_maps(1.0, 4.0), true, 1.0, kOfEdges);
     }
-    EXPECT_TRUE(comes_back(held, kOfEdges));
-    held = exact_history(held, stated_maps(9.0, 4.0), false, 1.0, kOfEdges);
-    EXPECT_EQ(held.passed, 0u);
-    EXPECT_EQ(held.frames, kFilterFrames) << "one that fails ends it";
-    EXPECT_FALSE(is_trial_due(held, kOfEdges));
+    EXPECT_TRUE(comes_back(previous, kOfEdges));
+    previous = exact_history(previous, stated_maps(9.0, 4.0), false, 1.0, kOfEdges);
+    EXPECT_EQ(previous.passed, 0u);
+    EXPECT_EQ(previous.frames, kFilterFrames) << "one that fails ends it";
+    EXPECT_FALSE(is_trial_due(previous, kOfEdges));
 }
 
 TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
@@ -238,13 +239,13 @@ TEST_P(FittedFilter, HardlyChangesWhileTheCameraSways) {
     for (int i = 0; i < 30; ++i) {
         SceneSnapshot s = scene(random, 2.0f);
         const glm::dvec3 from = s.consumers[0].position_ws_m;
-        History held;
+        History previous;
         int of_scene = 0;
         ShadowFilter last = ShadowFilter::automatic;
         for (int f = 0; f < 200; ++f) {
             s.consumers[0].position_ws_m = from * (1.0 + 0.02 * std::sin(0.9 * f));  // seven frames to and fro
-            const ShadowFrame frame = fitted(s, held);
-            held = frame.next_history;
+            const ShadowFrame frame = fitted(s, previous);
+            previous = frame.next_history;
             if (frame.fitted.views.empty()) continue;
             of_scene += last != ShadowFilter::automatic && last != filter(frame) ? 1 : 0;
             last = filter(frame);
@@ -273,14 +274,14 @@ TEST_P(FittedFilter, ChangesAtOnceForTheWordAndComesBackASecondAfterItWasNeeded)
         if (far.fitted.views.empty() || near.fitted.views.empty() || filter(far) != kDefaultFilter || filter(near) != kExactFilter)
             continue;
         ++there;
-        History held = near.next_history;
+        History previous = near.next_history;
         stand(30.0);
         for (std::uint32_t f = 1; f < kFilterFrames + kFilterPasses - 1; ++f) {
-            const ShadowFrame frame = fitted(s, held);
+            const ShadowFrame frame = fitted(s, previous);
             ASSERT_EQ(filter(frame), kExactFilter) << f;
-            held = frame.next_history;
+            previous = frame.next_history;
         }
-        const ShadowFrame again = fitted(s, held);
+        const ShadowFrame again = fitted(s, previous);
         back += filter(again) == kDefaultFilter ? 1 : 0;
         EXPECT_EQ(filter(again) == kDefaultFilter, resolved_in(far) <= 0.5 / kFilterHysteresis);
     }
@@ -292,9 +293,9 @@ TEST_P(FittedFilter, ComesToRest) {
     RandomScene random(print_seed());
     for (int i = 0; i < 40; ++i) {
         const SceneSnapshot s = scene(random, 0.5f);
-        History held;
-        for (std::uint32_t f = 0; f < 2 * kFilterFrames + 4; ++f) held = fitted(s, held).next_history;
-        EXPECT_EQ(fitted(s, held).next_history, held) << i;
+        History previous;
+        for (std::uint32_t f = 0; f < 2 * kFilterFrames + 4; ++f) previous = fitted(s, previous).next_history;
+        EXPECT_EQ(fitted(s, previous).next_history, previous) << i;
     }
 }
 

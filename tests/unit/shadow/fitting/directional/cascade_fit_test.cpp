@@ -303,10 +303,10 @@ protected:
         scene_.lights[0].shadow.cascades = 1;
     }
     /// Returns half of the map's extent in the next frame, with boxes of half size `half_m`.
-    double extent_m(double half_m, History& held) {
+    double extent_m(double half_m, History& previous) {
         for (InstanceItem& item : scene_.instances) item.bounds_ws = {glm::dvec3(-half_m), glm::dvec3(half_m)};
-        const ShadowFrame frame = fitted(scene_, held);
-        held = frame.next_history;
+        const ShadowFrame frame = fitted(scene_, previous);
+        previous = frame.next_history;
         return frame.fitted.views.at(0).plane.half_extent_m.x;
     }
     double extent_alone_m(double half_m) {

@@ -128,14 +128,14 @@ TEST(SampledDepths, OnesThatSayNothingAreNotUsed) {
 
 TEST(SampledDepths, HeldEndsStayUntilOthersAreATenthBetter) {
     const ConsumerItem here = counting_camera();
-    SampledSplitHistory held, next;
+    SampledSplitHistory previous, next;
     CascadeSplitDistances first{}, second{};
     const auto fit = [&](const SampledDepths& depths, CascadeSplitDistances& ends) {
-        held = next;
-        EXPECT_TRUE(held_sampled_splits({depths, here, 4, kWhole, kInfinity}, held, next, ends));
+        previous = next;
+        EXPECT_TRUE(held_sampled_splits({depths, here, 4, kWhole, kInfinity}, previous, next, ends));
     };
     fit(pixels_at({1.0, 4.0, 16.0}), first);
-    EXPECT_EQ(first, ends_of(pixels_at({1.0, 4.0, 16.0}), 4)) << "nothing is held yet";
+    EXPECT_EQ(first, ends_of(pixels_at({1.0, 4.0, 16.0}), 4)) << "nothing is previous yet";
     SampledDepths flicker = pixels_at({1.0, 4.0, 16.0});
     flicker.pixels[bin_at(4.0) + 1] = 100;
     EXPECT_NE(ends_of(flicker, 4), first) << "pixels in the next bin would move an end";

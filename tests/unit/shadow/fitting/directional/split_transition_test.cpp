@@ -35,9 +35,9 @@ double passed(const CascadeSplitDistances& ends_m, double distance_m) {
 }
 
 SplitHistory held_at(const CascadeSplitDistances& ends_m) {
-    SplitHistory held;
-    glide(ends_m, kCount, kBlend, camera(), {}, held);
-    return held;
+    SplitHistory previous;
+    glide(ends_m, kCount, kBlend, camera(), {}, previous);
+    return previous;
 }
 
 TEST(SplitTransition, WithoutAPastTheyAreWhereTheyShouldBe) {
@@ -49,13 +49,13 @@ TEST(SplitTransition, WithoutAPastTheyAreWhereTheyShouldBe) {
 }
 
 TEST(SplitTransition, TheyReachTheOtherPlaceSoSlowlyThatNoPointPassesByMoreThanAnEighthPerFrame) {
-    SplitHistory held = held_at(kHere);
+    SplitHistory previous = held_at(kHere);
     CascadeSplitDistances last = kHere;
     int frames = 0;
     for (; last != kThere; ++frames) {
         ASSERT_LT(frames, 120) << "two seconds";
-        SplitHistory next = held;
-        const SplitTransition ends = glide(kThere, kCount, kBlend, camera(), held, next);
+        SplitHistory next = previous;
+        const SplitTransition ends = glide(kThere, kCount, kBlend, camera(), previous, next);
         for (double d = 0.4; d < 45.0; d += 0.01)
             ASSERT_LE(std::abs(passed(ends.at_m, d) - passed(last, d)), kMostFade) << "frame " << frames << " at " << d;
         for (std::uint32_t i = 0; i <= kCount; ++i) {
@@ -64,11 +64,12 @@ TEST(SplitTransition, TheyReachTheOtherPlaceSoSlowlyThatNoPointPassesByMoreThanA
             EXPECT_TRUE(i == 0 || ends.at_m[i] >= ends.at_m[i - 1]);
         }
         last = ends.at_m;
-        held = next;
+        previous = next;
     }
     EXPECT_GT(frames, 8) << "they leap";
-    SplitHistory next = held;
-    EXPECT_EQ(glide(kThere, kCount, kBlend, camera(), held, next).from_m, kThere) << "maps need no longer hold both";
+    SplitHistory next = previous;
+    EXPECT_EQ(glide(kThere, kCount, kBlend, camera(), previous, next).from_m, kThere)
+        << "maps need no longer hold both";
 }
 
 TEST(SplitTransition, ACameraThatCarriesPointsThroughABandLeavesThemLess) {
@@ -95,9 +96,9 @@ TEST(SplitTransition, WithoutABandWithAnotherCountOrAfterNonsenseTheyLeap) {
     EXPECT_EQ(glide(kThere, kCount, 0.0, camera(), held_at(kHere), next).at_m, kThere);
     EXPECT_EQ(glide(kThere, kCount - 1, kBlend, camera(), held_at(kHere), next).at_m, kThere);
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
-        SplitHistory held = held_at(kHere);
-        held.at_m[2] = bad;
-        EXPECT_EQ(glide(kThere, kCount, kBlend, camera(), held, next).at_m, kThere) << bad;
+        SplitHistory previous = held_at(kHere);
+        previous.at_m[2] = bad;
+        EXPECT_EQ(glide(kThere, kCount, kBlend, camera(), previous, next).at_m, kThere) << bad;
     }
 }
 

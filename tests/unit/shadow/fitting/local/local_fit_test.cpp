@@ -108,17 +108,17 @@ struct Walk {
 };
 Walk walk(SceneSnapshot scene, bool with_history) {
     Walk result;
-    History held;
+    History previous;
     std::vector<glm::mat4> last;
     for (int i = 0; i < 200; ++i) {
         scene.consumers[0].position_ws_m += glm::dvec3(0.011, 0.0, -0.017);
-        ShadowFrame frame = fitted(scene, held);
+        ShadowFrame frame = fitted(scene, previous);
         std::vector<glm::mat4> now;
         for (const ShadowView& view : frame.fitted.views) now.push_back(view.clip_from_anchor);
         result.fits += now.empty() ? 0 : 1;
         result.changes += i > 0 && now != last ? 1 : 0;
         last = now;
-        if (with_history) held = frame.next_history;
+        if (with_history) previous = frame.next_history;
     }
     return result;
 }
@@ -137,15 +137,15 @@ TEST(LocalFit, ACameraThatBobsAcrossAStepMovesNothing) {
     s.instances.push_back(instance(box({0.0, 2.0, -1.2}, 0.4), true));
     s.instances.back().receives = false;
     for (const bool remembers : {true, false}) {
-        History held;
+        History previous;
         std::set<double> areas;
         for (int i = 0; i < 400; ++i) {
             // Where the sight begins to leave the cone, one way and back, ever again; the whole way crosses a step.
             s.consumers[0].position_ws_m.z = 3.0 + 0.5 * std::sin(0.3 * i);
-            const ShadowFrame frame = fitted(s, held);
+            const ShadowFrame frame = fitted(s, previous);
             ASSERT_EQ(frame.fitted.views.size(), 1u);
             if (i > 40) areas.insert(map_area(frame.fitted.views[0]));
-            if (remembers) held = frame.next_history;
+            if (remembers) previous = frame.next_history;
         }
         if (remembers)
             EXPECT_EQ(areas.size(), 1u);
@@ -159,14 +159,14 @@ int near_changes(LightKind kind, DepthFormat format) {
     SceneSnapshot s = floor_and_posts(kind);
     s.lights[0].tuning.maps.depth_format = format;
     s.instances.push_back(instance(box({0.4, 1.5, 0.0}, 0.2), true));
-    History held;
+    History previous;
     int changes = 0;
     double last_m = 0.0;
     for (int i = 0; i < 300; ++i) {
         const double y_m = 2.4 - 1.2 * std::cos(6.283185307179586 * i / 60.0);
         s.instances.back().bounds_ws = box({0.4, y_m, 0.0}, 0.2);
-        const ShadowFrame frame = fitted(s, held);
-        held = frame.next_history;
+        const ShadowFrame frame = fitted(s, previous);
+        previous = frame.next_history;
         EXPECT_FALSE(frame.fitted.views.empty());
         for (const ShadowView& view : frame.fitted.views) EXPECT_LE(view.depth.near_m, 5.0 - y_m - 0.2);
         changes += i > 0 && frame.fitted.views[0].depth.near_m != last_m ? 1 : 0;
