@@ -323,8 +323,7 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStora
     sets.clear();
     storage.layers.update(scene);
     const std::size_t lights = inputs.requests.size(), threads = threads_for(inputs.jobs, lights);
-    storage.scratch.resize(std::max(storage.scratch.size(), threads));
-    for (StageScratch& scratch : storage.scratch) scratch.sets.layers = &storage.layers;
+    provide_scratch(threads, storage);
     const ShadowLayers layers = layers_of_all(scene, inputs.requests);
     SetScratch& first = storage.scratch.front().sets;
     for (const ConsumerItem& consumer : scene.consumers) {

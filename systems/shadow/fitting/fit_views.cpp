@@ -231,6 +231,7 @@ void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, StageStorage
         if (choice.request.note != Reason::none) status.degrade(choice.request.note);
     };
     const std::size_t threads = threads_for(inputs.jobs, storage.taking.size());
+    provide_scratch(threads, storage);
     if (threads > 1) return fit_on_threads(threads, inputs, fit, storage, fitted);
     for (std::size_t job = 0; job < storage.taking.size(); ++job) fit(job, 0, fitted);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -31,5 +32,11 @@ struct StageStorage {
     std::vector<std::size_t> thread_of;  // one per light: the thread that took it
     std::vector<std::uint32_t> taking;   // lights that the last fit_views() fitted, by index
 };
+
+/// Provides scratch for as many threads.
+inline void provide_scratch(std::size_t threads, StageStorage& storage) {
+    storage.scratch.resize(std::max(storage.scratch.size(), threads));
+    for (StageScratch& scratch : storage.scratch) scratch.sets.layers = &storage.layers;
+}
 
 }  // namespace gnomon::shadow
