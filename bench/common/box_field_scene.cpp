@@ -40,6 +40,7 @@ SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m) {
     light.rotation_ws = math::basis_from_back(glm::dvec3(0.4, 1.0, 0.2));
     light.outer_cone_rad = 0.9;
     scene.lights.push_back(light);
+    scene.list_version = 1;  // as in a frame's snapshot: the list of instances is read once
     build_tree(scene);
     return scene;
 }
