@@ -55,16 +55,11 @@ public:
         touched_.clear();
     }
     /// Returns the handle of an entity's light; none: it has had none since the last sync().
-    LightId light(Entity entity) const { return found(lights_, entity); }
+    LightId light(Entity entity) const { return lights_.contains(entity) ? lights_.at(entity) : LightId{}; }
     /// Returns the handle of an entity's caster; none: it has had none since the last sync().
-    CasterId caster(Entity entity) const { return found(casters_, entity); }
+    CasterId caster(Entity entity) const { return casters_.contains(entity) ? casters_.at(entity) : CasterId{}; }
 
 private:
-    template <class Map>
-    static typename Map::mapped_type found(const Map& ids, Entity entity) {
-        const auto at = ids.find(entity);
-        return at == ids.end() ? typename Map::mapped_type{} : at->second;
-    }
     template <class Map, class Set, class Add>
     void put(Map& ids, Entity entity, bool wanted, Set&& set, Add&& add) {
         const auto at = ids.find(entity);

@@ -271,10 +271,7 @@ ShadowLayers layers_of_all(const SceneSnapshot& scene, std::span<const ShadowReq
 
 /// Calls `select` for each light, on several threads, and puts what they find in the order of the lights.
 template <class Select>
-void select_on_threads(std::size_t threads, const SetInputs& inputs, const Select& select, StageStorage& storage,
-                       ReceiverCasterSets& sets) {
-    storage.results.resize(std::max(storage.results.size(), threads));
-    storage.thread_of.resize(sets.lights.size());
+void select_on_threads(const SetInputs& inputs, const Select& select, StageStorage& storage, ReceiverCasterSets& sets) {
     for (ThreadResults& results : storage.results) {
         results.sets.clear();
         results.sets.camera_frusta = sets.camera_frusta;
@@ -323,7 +320,7 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStora
     sets.clear();
     storage.layers.update(scene);
     const std::size_t lights = inputs.requests.size(), threads = threads_for(inputs.jobs, lights);
-    provide_scratch(threads, storage);
+    provide_threads(threads, lights, storage);
     const ShadowLayers layers = layers_of_all(scene, inputs.requests);
     SetScratch& first = storage.scratch.front().sets;
     for (const ConsumerItem& consumer : scene.consumers) {
@@ -341,7 +338,7 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStora
                                            storage.scratch[thread].sets, out);
     };
     if (threads > 1)
-        select_on_threads(threads, inputs, select, storage, sets);
+        select_on_threads(inputs, select, storage, sets);
     else
         for (std::size_t i = 0; i < lights; ++i) select(i, 0, sets);
     for (std::size_t i = 0; i < lights; ++i) {

@@ -189,10 +189,7 @@ void begin_lights(const SceneSnapshot& scene, const FitInputs& inputs, FittedVie
 
 /// Calls `fit` for each light that takes part, on several threads, and puts their views in the order of the lights.
 template <class Fit>
-void fit_on_threads(std::size_t threads, const FitInputs& inputs, const Fit& fit, StageStorage& storage,
-                    FittedViews& fitted) {
-    storage.results.resize(std::max(storage.results.size(), threads));
-    storage.thread_of.resize(fitted.lights.size());
+void fit_on_threads(const FitInputs& inputs, const Fit& fit, StageStorage& storage, FittedViews& fitted) {
     for (ThreadResults& results : storage.results) {
         clear(inputs.sets, results.fitted);
         results.fitted.lights.resize(fitted.lights.size());
@@ -231,8 +228,8 @@ void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, StageStorage
         if (choice.request.note != Reason::none) status.degrade(choice.request.note);
     };
     const std::size_t threads = threads_for(inputs.jobs, storage.taking.size());
-    provide_scratch(threads, storage);
-    if (threads > 1) return fit_on_threads(threads, inputs, fit, storage, fitted);
+    provide_threads(threads, fitted.lights.size(), storage);
+    if (threads > 1) return fit_on_threads(inputs, fit, storage, fitted);
     for (std::size_t job = 0; job < storage.taking.size(); ++job) fit(job, 0, fitted);
 }
 

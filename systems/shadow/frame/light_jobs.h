@@ -6,7 +6,7 @@
 
 namespace gnomon::shadow {
 
-/// Lights for each thread, at least. Waking a thread takes about as long as a small lamp.
+/// Lights for each thread, at least. One takes some 0.1 ms (docs/results/many_lights.md): fewer are not worth a thread.
 inline constexpr std::size_t kLightsPerThread = 8;
 
 /// Returns how many threads share this many lights. `jobs`: null: the calling one does all.

@@ -33,10 +33,13 @@ struct StageStorage {
     std::vector<std::uint32_t> taking;   // lights that the last fit_views() fitted, by index
 };
 
-/// Provides scratch for as many threads.
-inline void provide_scratch(std::size_t threads, StageStorage& storage) {
+/// Provides scratch for as many threads; for several also results, of `lights`.
+inline void provide_threads(std::size_t threads, std::size_t lights, StageStorage& storage) {
     storage.scratch.resize(std::max(storage.scratch.size(), threads));
     for (StageScratch& scratch : storage.scratch) scratch.sets.layers = &storage.layers;
+    if (threads == 1) return;
+    storage.results.resize(std::max(storage.results.size(), threads));
+    storage.thread_of.resize(lights);
 }
 
 }  // namespace gnomon::shadow
