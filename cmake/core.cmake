@@ -63,6 +63,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/culling/inner_receivers.cpp
   systems/shadow/culling/nearest_receiver.cpp
   systems/shadow/culling/error_points.cpp
+  systems/shadow/culling/lit_areas.cpp
   systems/shadow/culling/receiver_caster_sets.cpp
   systems/shadow/culling/receiver_hull.cpp
   systems/shadow/culling/static_dynamic_casters.cpp

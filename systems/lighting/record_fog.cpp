@@ -49,7 +49,7 @@ void LightingSystem::record_fogs(const shadow::LightingInputs& inputs, const Gpu
     forward_programs_.clear();
     for (const shadow::LightingLight& light : inputs.lights) {
         LightProgram& used = forward_programs_.emplace_back();
-        if (light.screen.width <= 0) continue;
+        if (light.area.screen.width <= 0) continue;
         used = fog_program(light);
         if (used.lacks != Reason::none)
             outcome.failures.push_back({light.light, used.lacks, used.unshadowed, true, light.plain.accuracy});
@@ -68,7 +68,7 @@ void LightingSystem::record_fogs(const shadow::LightingInputs& inputs, const Gpu
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
             const LightProgram& used = forward_programs_[i];
             if (!used.program) continue;
-            list.add(gl::SetScissor{inputs.lights[i].screen});
+            list.add(gl::SetScissor{inputs.lights[i].area.screen});
             list.add(gl::SetPipeline{
                 {used.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
             bind_light(used, i, gpu, list);

@@ -10,7 +10,7 @@ void LightingSystem::plan_forward(const shadow::LightingInputs& inputs, ShaderPa
     forward_programs_.clear();
     for (const shadow::LightingLight& light : inputs.lights) {
         LightProgram& used = forward_programs_.emplace_back();
-        if (light.screen.width <= 0) continue;
+        if (light.area.screen.width <= 0) continue;
         used = light_program(light, output);
         if (used.lacks != Reason::none)
             outcome.failures.push_back({light.light, used.lacks, used.unshadowed, true, light.plain.accuracy});
@@ -50,7 +50,7 @@ void LightingSystem::record_catchers(const shadow::LightingInputs& inputs, const
     if (!caught_ || !base || !shares) {
         const Reason lacks = caught_ ? Reason::lighting_program_failed : Reason::target_incomplete;
         for (const shadow::LightingLight& light : inputs.lights)
-            if (light.screen.width > 0) outcome.failures.push_back({light.light, lacks, true, true, {}});
+            if (light.area.screen.width > 0) outcome.failures.push_back({light.light, lacks, true, true, {}});
         return;
     }
     plan_forward(inputs, ShaderPass::catcher, outcome);
@@ -64,7 +64,7 @@ void LightingSystem::record_catchers(const shadow::LightingInputs& inputs, const
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         sums.program = forward_programs_[i].program;
         if (!sums.program) continue;
-        list.add(gl::SetScissor{inputs.lights[i].screen});
+        list.add(gl::SetScissor{inputs.lights[i].area.screen});
         list.add(gl::SetPipeline{sums});
         bind_light(forward_programs_[i], i, gpu, list);
         draw_catchers(sums, gpu, list);
@@ -102,7 +102,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
         list.add(meshes);
         if (!unlit && forward_programs_.empty()) plan_forward(inputs, ShaderPass::blended, outcome);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-            if (unlit || inputs.lights[i].screen.width <= 0) continue;
+            if (unlit || inputs.lights[i].area.screen.width <= 0) continue;
             const LightProgram& used = forward_programs_[i];
             state.program = used.program;
             if (!state.program) continue;

@@ -33,7 +33,7 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
     passes_.resize(inputs.lights.size());
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
-        if (light.screen.width > 0) passes_[i].own = light_program(light, ShaderPass::picture);
+        if (light.area.screen.width > 0) passes_[i].own = light_program(light, ShaderPass::picture);
         if (!passes_[i].own.edges) continue;
         passes_[i].reads = passes_[i].own.edges.reads;
         passes_[i].read_area = viewport();
@@ -42,7 +42,7 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
     // Programs that only save time come last.
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
-        if (light.screen.width > 0 && may_keep(light) && passes_[i].own.lacks == Reason::none)
+        if (light.area.screen.width > 0 && may_keep(light) && passes_[i].own.lacks == Reason::none)
             plan_kept(light, scene.lights[light.light].entity, surfaces, settings.noise_round, passes_[i]);
     }
     kept_.end();
@@ -56,7 +56,7 @@ void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity e
     s.add(surfaces);
     s.add(light.lookup_signature);
     if (shadow::has_noise(light.record)) s.add(std::uint64_t{noise_round});
-    const KeptVisibility::Plan plan = kept_.plan(entity, s.value(), light.screen, targets_.size_px());
+    const KeptVisibility::Plan plan = kept_.plan(entity, s.value(), light.area.screen, targets_.size_px());
     if (plan.use == KeptVisibility::Use::look_up) return;
     const bool fills = plan.use == KeptVisibility::Use::fill;
     // One after the other, because a frame may make only one.
@@ -87,13 +87,13 @@ void LightingSystem::bind_kept(const LightPass& pass, std::uint32_t index, gl::C
 void LightingSystem::record_kept(const LightPass& pass, std::uint32_t index, const shadow::LightingLight& light,
                                  gl::CommandList& list) const {
     list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
-    list.add(gl::SetScissor{light.screen});
+    list.add(gl::SetScissor{light.area.screen});
     list.add(
         gl::SetPipeline{{pass.reads, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
     bind_surface_textures(list);
     bind_kept(pass, index, list);
     bind_tint(light.tint, list);
-    list.add(gl::DrawTriangle{light.farthest_depth});
+    list.add(gl::DrawTriangle{light.area.farthest_depth});
     list.add(gl::EndPass{});
 }
 

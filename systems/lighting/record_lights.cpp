@@ -134,7 +134,7 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
     list.add(gl::BeginGroup{"lights"});
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
-        if (light.screen.width <= 0) continue;
+        if (light.area.screen.width <= 0) continue;
         const LightPass& pass = passes_[i];
         const LightProgram& used = pass.own;
         if (used.lacks != Reason::none)
@@ -146,11 +146,11 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
             if (pass.fills.program) record_fill(pass, i, gpu, list);
             record_kept(pass, i, light, list);
         } else if (pass.reads) {
-            record_edges(used, i, light.screen, light.farthest_depth, gpu, list);
+            record_edges(used, i, light.area.screen, light.area.farthest_depth, gpu, list);
             record_kept(pass, i, light, list);
         } else {
-            if (used.verdicts_program) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);
-            record_look_up(used, i, light.screen, light.farthest_depth, gpu, list);
+            if (used.verdicts_program) record_rays(used, i, light.area.screen, light.area.farthest_depth, gpu, list);
+            record_look_up(used, i, light.area.screen, light.area.farthest_depth, gpu, list);
         }
         list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});

@@ -21,6 +21,13 @@
 
 namespace gnomon::shadow {
 
+namespace {
+
+/// Largest part of the bytes of maps that is left to copies of static casters: a quarter.
+constexpr std::uint64_t kCopyShare = 4;
+
+}  // namespace
+
 ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history, Jobs* jobs)
     : device_(device),
       maps_(device),
@@ -135,8 +142,10 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
     std::uint64_t automatic_bytes = settings.budget.bytes == 0 ? automatic_limit(scene.consumers) : BudgetLimits::kNone;
+    const std::uint64_t copies = maps_.copy_room();
+    copy_room_ = copies <= std::min(limits.bytes, automatic_bytes) / kCopyShare ? copies : 0;
     for (std::uint64_t* bytes : {&limits.bytes, &automatic_bytes})
-        if (*bytes != BudgetLimits::kNone) *bytes -= std::min(*bytes, tint_maps_.wanted_bytes());
+        if (*bytes != BudgetLimits::kNone) *bytes -= std::min(*bytes, tint_maps_.wanted_bytes() + copy_room_);
     if (history_.short_of_bytes) limits.bytes = std::min(limits.bytes, automatic_bytes);
     const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
     reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay() &&
@@ -216,7 +225,8 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     provide_rays(scene, gpu, lacked && !rays_lack_, out.list);
     finish("budget");
 
-    maps_.set_limit(budget_.map_limit());
+    const std::uint64_t map_limit = budget_.map_limit();
+    maps_.set_limit(map_limit == MapCache::kNoLimit ? map_limit : map_limit + copy_room_);
     maps_.set_keep_limit(budget_.keep_limit());
     maps_.assign(scene, f.fitted, f.decisions, f.maps, accounts);
     finish("maps");
@@ -243,7 +253,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     const bool masked = static_cast<bool>(gpu.caster_masks());
     publish_lights(scene,
                    {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked, f.tints, f.ray_tints,
-                    tint_scene_.buffer()},
+                    tint_scene_.buffer(), f.sets.lit_areas},
                    f.inputs, f.cpu_us);
     finish("publish");
 }

@@ -24,8 +24,8 @@ protected:
         shadow::LightingInputs handed = inputs();
         const auto size = glm::ivec2(settings.viewport_px);
         for (shadow::LightingLight& light : handed.lights) {
-            if (!screen && light.screen.width > 0) light.screen = {0, 0, size.x, size.y};
-            if (!depth) light.farthest_depth = 0.0f;
+            if (!screen && light.area.screen.width > 0) light.area.screen = {0, 0, size.x, size.y};
+            if (!depth) light.area.farthest_depth = 0.0f;
         }
         gl::CommandList list;
         record_picture(handed, list);
@@ -34,33 +34,44 @@ protected:
     }
 };
 
-TEST_F(LightPasses, OfAHundredLightsGiveTheSamePictureWithoutTheirBounds) {
-    const game::SpawnedScene spawned = game::spawn_scene(bench::demand_scene(100, 7), world, library);
-    const ecs::Entity eyes = spawned.cameras.at(0).entity;
-    const Camera as_it_is = *world.get<Camera>(eyes);
-    std::mt19937_64 random(1);
-    const auto number = [&](double from, double to) {
-        return from + (to - from) * std::ldexp(static_cast<double>(random() >> 11U), -53);
-    };
-    std::size_t bounded = 0;
-    for (int view = 0; view < 12; ++view) {
-        const glm::dvec3 at(number(-40.0, 40.0), number(0.5, 8.0), number(-40.0, 40.0));
-        const glm::dvec3 ahead(number(-1.0, 1.0), number(-0.4, 0.1), number(-1.0, 1.0));
-        world.emplace<Transform>(eyes, {.translation_m = at, .rotation = looking_along(ahead)});
-        world.patch<Camera>(eyes, [&](Camera& camera) {
-            camera = as_it_is;
-            if (view % 3 == 1) camera.far_m = 60.0;
-            if (view % 3 == 2) camera = {.projection = CameraProjection::orthographic, .far_m = 200.0};
-        });
-        run();
-        const std::vector<std::uint8_t> bounds = drawn_picture();
-        EXPECT_EQ(drawn_with(true, false), bounds) << "view " << view << ": not at any depth";
-        EXPECT_EQ(drawn_with(false, false), bounds) << "view " << view << ": not over the whole picture";
-        for (const shadow::LightingLight& light : inputs().lights)
-            bounded += light.screen.width > 0 && light.farthest_depth > 0.0f ? 1 : 0;
+/// Draws twelve views of a hundred lights, and checks that none misses a pixel. `range_factor`: of the lights' ranges;
+/// 0: unlimited. Returns how many passes had bounds.
+class ManyPasses : public LightPasses {
+protected:
+    std::size_t bounded_passes(float range_factor) {
+        const game::SpawnedScene spawned = game::spawn_scene(bench::demand_scene(100, 7), world, library);
+        for (const game::NamedEntity& lamp : spawned.lights)
+            world.patch<Light>(lamp.entity, [&](Light& light) { light.range_m *= range_factor; });
+        const ecs::Entity eyes = spawned.cameras.at(0).entity;
+        const Camera as_it_is = *world.get<Camera>(eyes);
+        std::mt19937_64 random(1);
+        const auto number = [&](double from, double to) {
+            return from + (to - from) * std::ldexp(static_cast<double>(random() >> 11U), -53);
+        };
+        std::size_t bounded = 0;
+        for (int view = 0; view < 12; ++view) {
+            const glm::dvec3 at(number(-40.0, 40.0), number(0.5, 8.0), number(-40.0, 40.0));
+            const glm::dvec3 ahead(number(-1.0, 1.0), number(-0.4, 0.1), number(-1.0, 1.0));
+            world.emplace<Transform>(eyes, {.translation_m = at, .rotation = looking_along(ahead)});
+            world.patch<Camera>(eyes, [&](Camera& camera) {
+                camera = as_it_is;
+                if (view % 3 == 1) camera.far_m = 60.0;
+                if (view % 3 == 2) camera = {.projection = CameraProjection::orthographic, .far_m = 200.0};
+            });
+            run();
+            const std::vector<std::uint8_t> bounds = drawn_picture();
+            EXPECT_EQ(drawn_with(true, false), bounds) << "view " << view << ": not at any depth";
+            EXPECT_EQ(drawn_with(false, false), bounds) << "view " << view << ": not over the whole picture";
+            for (const shadow::LightingLight& light : inputs().lights)
+                bounded += light.area.screen.width > 0 && light.area.farthest_depth > 0.0f ? 1 : 0;
+        }
+        return bounded;
     }
-    EXPECT_GT(bounded, 60u);
-}
+};
+
+TEST_F(ManyPasses, WithRangesGiveTheSamePictureWithoutTheirBounds) { EXPECT_GT(bounded_passes(1.0f), 60u); }
+
+TEST_F(ManyPasses, WithoutRangesGiveTheSamePictureWithoutTheirBounds) { EXPECT_GT(bounded_passes(0.0f), 60u); }
 
 TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
     place(add_mesh(game::make_card({0, 0, 0}, {2, 0, 0}, {0, 2, 0})), {}, false);
@@ -70,12 +81,12 @@ TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
     lamp.range_m = 3.0f;
     add_light(lamp, {0.0, 0.0, 2.0}, {0, 0, -1});
     run();
-    ASSERT_GT(inputs().lights.at(0).screen.width, 0);
+    ASSERT_GT(inputs().lights.at(0).area.screen.width, 0);
     const std::vector<std::uint8_t> lit = drawn_picture();
     EXPECT_EQ(drawn_with(true, false), lit);
     // Control: with a shorter reach of the light the pass leaves the wall out.
     shadow::LightingInputs nearer = inputs();
-    nearer.lights[0].farthest_depth = inputs().lights[0].farthest_depth * 1.5f;
+    nearer.lights[0].area.farthest_depth = inputs().lights[0].area.farthest_depth * 1.5f;
     gl::CommandList list;
     record_picture(nearer, list);
     GlTest::run(list);

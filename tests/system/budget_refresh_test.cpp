@@ -84,7 +84,7 @@ TEST_F(BudgetRefresh, WaitsForNothingThatMovesTheMapItself) {
     int drawn = 0;
     for (int i = 0; i < 8; ++i) {
         move_box();
-        world.registry.patch<Transform>(lamp, [i](Transform& t) { t.translation_m.x += i % 2 == 0 ? 0.5 : -0.5; });
+        world.registry.patch<Transform>(lamp, [i](Transform& t) { t.translation_m.x += i % 2 == 0 ? 0.01 : -0.01; });
         step();
         drawn += static_cast<int>(depth_passes().size());
     }

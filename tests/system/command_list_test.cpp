@@ -1,6 +1,6 @@
 #include "shaders/bindings.h"
-#include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/publish/publish_lights.h"
+#include "tests/oracle/fit_stages.h"
 #include "tests/system/frame_fixture.h"
 
 /// The whole first frame of the smallest shadowed scene, command by command.
@@ -47,6 +47,13 @@ protected:
     }
     gl::ProgramHandle program(const std::string& label) const {
         return {id(gl::ResourceCall::Kind::create_program, label)};
+    }
+    /// Returns the least depth of what the lamp lights.
+    float lit_depth() const {
+        shadow::FitStages stages;
+        stages.decide(frame->snapshot(), device.info());
+        stages.select(frame->snapshot());
+        return stages.frame.sets.lit_areas.at(0).farthest_depth;
     }
     std::vector<gl::Command> expected() const;
 };
@@ -124,7 +131,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BindTexture{3, texture("surface material"), point},
         BindUniforms{1, uniforms, 3 * kAlign, kLight},
         BindTexture{4, texture("shadow map lamp"), linear},
-        DrawTriangle{shadow::farthest_depth(frame->snapshot().lights[0], frame->snapshot().consumers[0])},
+        DrawTriangle{lit_depth()},
         EndPass{},
         EndTimer{1},
         EndGroup{},

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -9,7 +10,7 @@
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_system.h"
-#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/projection/light_range.h"
 #include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/publish/publish_lights.h"
 #include "systems/shadow/request/filter_table.h"
@@ -124,18 +125,30 @@ TEST_F(ManyLights, HaveViewsAndPassesAsFarAsTheyAreSeenAndNoMore) {
     EXPECT_EQ(drawn_views().size(), drawn);
     EXPECT_LE(drawn, views) << "a cascade without casters is cleared alone";
 
-    // A light has a pass if any instance, by its bounds, is both seen and reached. Without a tree each one is tested.
+    // A light has a pass if the middle of some instance is both seen and reached. It has none if no instance is, by its
+    // bounds.
     const SceneSnapshot& scene = frame->snapshot();
     const ConsumerItem& camera = scene.consumers.at(0);
-    SceneSnapshot without_tree = scene;
-    without_tree.tree = {};
-    Names reached;
-    for (const LightItem& light : scene.lights)
-        if (shadow::screen_rectangle(light, camera).width > 0 &&
-            shadow::reaches_anything_seen(without_tree, light, camera))
-            reached.insert(light.name);
-    EXPECT_EQ(light_passes(), reached);
-    EXPECT_LT(reached.size(), kLights / 2u);
+    const math::Frustum frustum = consumer_frustum(camera);
+    const auto meets = [&](const LightItem& light, const math::Aabb& box) {
+        return math::overlap(math::planes_of(frustum), box) != math::Overlap::outside &&
+               shadow::LightReach(light).overlap(box) != math::Overlap::outside;
+    };
+    Names by_bounds, by_middles;
+    for (const LightItem& light : scene.lights) {
+        if (shadow::screen_rectangle(light, camera).width == 0) continue;
+        for (const InstanceItem& item : scene.instances) {
+            if (!item.visible) continue;
+            const glm::dvec3 middle = math::centre(item.bounds_ws);
+            if (meets(light, item.bounds_ws)) by_bounds.insert(light.name);
+            if (meets(light, {middle, middle})) by_middles.insert(light.name);
+        }
+    }
+    const Names passes = light_passes();
+    EXPECT_TRUE(std::includes(by_bounds.begin(), by_bounds.end(), passes.begin(), passes.end()));
+    EXPECT_TRUE(std::includes(passes.begin(), passes.end(), by_middles.begin(), by_middles.end()));
+    EXPECT_GT(by_middles.size(), 10u);
+    EXPECT_LT(by_bounds.size(), kLights / 2u);
 }
 
 TEST_F(ManyLights, HoldTheBytesTheySayAndUseAProgramPerRow) {

@@ -8,7 +8,6 @@
 #include "systems/extract/volumes.h"
 #include "systems/shadow/budget/automatic_limit.h"
 #include "systems/shadow/fitting/error_bound.h"
-#include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/request/accuracy_target.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
@@ -154,10 +153,10 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     load.extent_px = seen_px * fitted.map.resolution_px / needed;
     if (needed != load.wanted.map.resolution_px) set_resolution(*load.light, needed, load.wanted);
     const auto points = inputs.fitted.sets_of(inputs.sets, light).receiver_points_ws();
-    for (const ConsumerItem& consumer : scene.consumers) {
-        load.pixels += area_px(screen_rectangle(*load.light, consumer));
+    for (std::size_t i = light; i < inputs.sets.lit_areas.size(); i += scene.lights.size())
+        load.pixels += area_px(inputs.sets.lit_areas[i].screen);
+    for (const ConsumerItem& consumer : scene.consumers)
         load.weight = std::max(load.weight, seen_share(points, consumer));
-    }
     return load;
 }
 

@@ -18,7 +18,7 @@ double drawn_ns(const MapSettings& map, const LightReport& light) {
 /// visibility.
 double lit_ns(const LightItem& item, const ShadowRequest& request, const LightingLight& light,
               const LightReport& report) {
-    const double pixels = static_cast<double>(light.screen.width) * light.screen.height;
+    const double pixels = static_cast<double>(light.area.screen.width) * light.area.screen.height;
     const bool looks_up = !light.row.filter_file.empty() && report.filter.filter != ShadowFilter::automatic &&
                           report.kept.reason == Reason::none;
     const double fetches = looks_up ? mean_fetches(item, request, report.filter.filter) : 0.0;

@@ -11,6 +11,7 @@
 #include "systems/shadow/culling/error_points.h"
 #include "systems/shadow/culling/inner_receivers.h"
 #include "systems/shadow/culling/lamp_places.h"
+#include "systems/shadow/culling/lit_areas.h"
 #include "systems/shadow/culling/nearest_receiver.h"
 #include "systems/shadow/culling/receiver_hull.h"
 #include "systems/shadow/culling/swept_volume.h"
@@ -288,20 +289,6 @@ void select_on_threads(const SetInputs& inputs, const Select& select, StageStora
 
 }  // namespace
 
-bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer) {
-    if (light_facts(light.kind).parallel) return true;
-    const LightReach reach(light);
-    const math::Frustum frustum = consumer_frustum(consumer);
-    const SeenReach seen(math::planes_of(frustum), reach);
-    bool found = false;
-    const auto classify = [&](const math::Aabb& box, math::OpenTests& open) {
-        return found ? Overlap::outside : seen.overlap(box, open);
-    };
-    visit_instances(scene, seen.tests(), classify,
-                    [&](std::uint32_t i) { found = found || scene.instances[i].visible; });
-    return found;
-}
-
 std::span<const math::Plane> seen_by_the_only_consumer(std::span<const math::Frustum> camera_frusta) {
     if (camera_frusta.size() != 1) return {};
     return math::planes_of(camera_frusta.front());
@@ -347,6 +334,7 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStora
         if (sets.lights[i].receivers.count == 0) status.skip(Reason::no_visible_receiver);
         if (sets.lights[i].casters.count == 0) status.skip(Reason::no_caster);
     }
+    find_lit_areas(scene, inputs.jobs, storage, sets);
 }
 
 }  // namespace gnomon::shadow

@@ -21,6 +21,7 @@ struct SetInputs {
 /// - Potential shadow receivers (PSR): in a camera's frustum and in the light's range, with the corners of their
 ///   clipped bounding boxes.
 /// - Potential shadow casters (PSC): in the volume swept from those corners toward the light, visible or not.
+/// - Lit areas: parts of the pictures that a light can light (lit_areas.h), also of lights without a shadow.
 ///
 /// Skips lights without receivers or without casters. Conservative: bounding boxes represent meshes, except for the
 /// depth of a camera's nearest receiver (nearest_receiver.h). Searches scene.tree where the scene has one
@@ -32,10 +33,6 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStora
 /// `scratch`: one of its storage's; `out` has its camera frusta.
 LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, const ShadowRequest& request,
                             const glm::dvec3& lamp_ws_m, SetScratch& scratch, ReceiverCasterSets& out);
-
-/// Returns false if the light reaches no instance in the camera's frustum, and so adds nothing to the picture, shadows
-/// or not. Conservative by bounding boxes.
-bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer);
 
 /// Returns the planes of the only camera's frustum; none if there are several cameras.
 std::span<const math::Plane> seen_by_the_only_consumer(std::span<const math::Frustum> camera_frusta);

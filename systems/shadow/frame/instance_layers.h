@@ -18,9 +18,12 @@ public:
     bool shows_shadows_of(const LightItem& light, std::uint32_t i) const {
         return (light.shadow.layers & shows_[i]) != 0;
     }
+    /// Returns true if all visible instances show the light's shadows.
+    bool all_show_shadows_of(const LightItem& light) const { return (light.shadow.layers & shown_by_all_) != 0; }
 
 private:
     std::vector<ShadowLayers> casts_, shows_;  // 0: none
+    ShadowLayers shown_by_all_ = 0;            // in which all visible instances are
     std::uint64_t list_version_ = 0;           // the scene's at the last update()
 };
 

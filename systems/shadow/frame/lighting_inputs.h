@@ -8,6 +8,7 @@
 #include "engine/gl/commands.h"
 #include "gnomon/frame.h"
 #include "gnomon/light.h"
+#include "systems/shadow/frame/lit_area.h"
 #include "systems/shadow/frame/shader_key.h"
 #include "systems/shadow/frame/tint_assignment.h"
 #include "systems/shadow/frame/view_limits.h"
@@ -94,9 +95,7 @@ struct LightingLight {
     visibility::RayBuffers rays{};  // {0} unless row.rays
     TintTextures tint;              // {0} without row.tint
     FallbackLookup plain;
-    gl::Rect reach{};             // pixels within the light's range; empty: none
-    gl::Rect screen{};            // the same; empty also where none of the scene's instances is seen within it
-    float farthest_depth = 0.0f;  // lower bound on the picture's reversed depths within its range; the sky is below it
+    LitArea area;
     /// Hash of every input of the shadow lookup except pixel and camera (visibility_hash.h). Equal hashes mean equal
     /// visibility. 0: unknown, or visibility is not kept.
     std::uint64_t lookup_signature = 0;

@@ -9,6 +9,7 @@
 #include "systems/shadow/frame/index_range.h"
 #include "systems/shadow/frame/index_set.h"
 #include "systems/shadow/frame/instance_layers.h"
+#include "systems/shadow/frame/lit_area.h"
 #include "systems/shadow/frame/split_scratch.h"
 
 namespace gnomon::shadow {
@@ -55,6 +56,7 @@ struct ReceiverCasterSets {
     std::vector<glm::dvec3> error_points_ws;
     std::vector<ReceiverHull> hulls;
     std::vector<glm::dvec2> outlines;
+    std::vector<LitArea> lit_areas;  // one per light, for each camera view that draws
 
     void clear();
 };
@@ -88,6 +90,7 @@ inline void ReceiverCasterSets::clear() {
     error_points_ws.clear();
     hulls.clear();
     outlines.clear();
+    lit_areas.clear();
 }
 
 /// Appends one light's sets, ranges of `from`, to the arrays of `to`. Returns their ranges there.

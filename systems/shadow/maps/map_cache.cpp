@@ -116,7 +116,9 @@ void MapCache::release(CachedMap& cached) {
     device_.destroy(cached.moments.scratch_target);
     device_.destroy(cached.moments.texture);
     release_static_copy(cached.still);
+    const bool is_worth_room = cached.still.is_worth_room;  // so it is beside the next map
     cached.still = {};
+    cached.still.is_worth_room = is_worth_room;
     device_.destroy(cached.moments.scratch);
     cached.moments = {};
     cached.whole = {};
@@ -358,12 +360,16 @@ bool MapCache::provide_static_copy(CachedMap& map) const {
     StaticCopy& still = map.still;
     if (still.texture) return true;
     if (frame_ < still.retry_frame) return false;
+    std::uint64_t others = 0;  // copies that are worth more room, and still to be made
+    for (const CachedMap& other : lights_)
+        if (!map.still.is_worth_room && other.still.is_worth_room && !other.still.texture)
+            others += static_copy_bytes(other);
+    if (limit_ != kNoLimit && bytes() + others + static_copy_bytes(map) > limit_) return false;
+    yield_spare(static_copy_bytes(map));
     gl::TextureDesc desc = map.desc;
     desc.label += ", still";
     desc.shared = false;
-    const bool fits = limit_ == kNoLimit || bytes() + static_copy_bytes(map) <= limit_;
-    if (fits) yield_spare(static_copy_bytes(map));
-    if (fits) still.texture = device_.create_texture(desc, {}).handle;
+    still.texture = device_.create_texture(desc, {}).handle;
     desc.label += " triangles";
     desc.format = map.references.format();
     if (still.texture && map.triangles) still.triangles = device_.create_texture(desc, {}).handle;

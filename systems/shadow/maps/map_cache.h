@@ -135,6 +135,8 @@ public:
     /// Makes the copy of static casters beside the light's map. Returns false if the device or the limit has no room.
     /// Then all casters are drawn, as without a copy.
     bool provide_static_copy(CachedMap& map) const;
+    /// Returns the bytes of all copies that are worth room (StaticCopy::is_worth_room), made or not.
+    std::uint64_t copy_room() const;
     /// Frees copies that were not used for kHoldFrames.
     void release_idle_copies();
     /// Returns the target of all layers at once, {0} where the device refuses.

@@ -37,6 +37,13 @@ void MapCache::evict_unseen(std::uint64_t wanted_bytes) {
     }
 }
 
+std::uint64_t MapCache::copy_room() const {
+    std::uint64_t room = 0;
+    for (const CachedMap& map : lights_)
+        if (map.still.is_worth_room) room += static_copy_bytes(map);
+    return room;
+}
+
 /// Evicts until `bytes_more` fit, in this order: the spare cache, unused maps (least recently used first), static
 /// copies, the map to be replaced. Returns false if they still do not fit.
 bool MapCache::make_room(std::uint64_t bytes_more, CachedMap* replaced) {

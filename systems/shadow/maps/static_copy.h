@@ -17,6 +17,7 @@ struct StaticCopy {
     };
     std::vector<Layer> layers;
     std::uint64_t last_used_frame = 0, retry_frame = 0;
+    bool is_worth_room = false;  // it once saved kWorthRoom_bytes of work, and may again
 };
 
 }  // namespace gnomon::shadow

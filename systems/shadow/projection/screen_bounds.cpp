@@ -62,19 +62,21 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
             static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
 }
 
-float farthest_depth(const LightItem& light, const ConsumerItem& c) {
-    if (light_facts(light.kind).parallel || !(light.range_m > 0.0)) return 0.0f;
-    const Ball ball = reached_ball(light);
-    const double centre_m = glm::dot(c.position_ws_m - ball.centre_ws_m, c.rotation_ws[2]);
+float depth_bound(double farthest_m, const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
-    const double exact_m = centre_m + ball.radius_m;
-    const double farthest_m = exact_m + kRounding * (orthographic ? c.far_m : exact_m);
+    farthest_m += kRounding * (orthographic ? c.far_m : farthest_m);
     if (!(farthest_m > c.near_m)) return 1.0f;
     const double depth = orthographic ? (c.far_m - farthest_m) / (c.far_m - c.near_m)
                          : std::isinf(c.far_m)
                              ? c.near_m / farthest_m
                              : c.near_m * (c.far_m - farthest_m) / (farthest_m * (c.far_m - c.near_m));
     return static_cast<float>(std::clamp(depth, 0.0, 1.0));
+}
+
+float farthest_depth(const LightItem& light, const ConsumerItem& c) {
+    if (light_facts(light.kind).parallel || !(light.range_m > 0.0)) return 0.0f;
+    const Ball ball = reached_ball(light);
+    return depth_bound(glm::dot(c.position_ws_m - ball.centre_ws_m, c.rotation_ws[2]) + ball.radius_m, c);
 }
 
 }  // namespace gnomon::shadow

@@ -10,6 +10,9 @@ namespace gnomon::shadow {
 /// camera or beyond its far plane. Conservative.
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
 
+/// Returns a lower bound on the reversed depths, in [0,1], of all surfaces up to a distance along the view.
+float depth_bound(double farthest_m, const ConsumerItem& camera);
+
 /// Returns a lower bound on the reversed depths, in [0,1], of all surfaces within the light's range. 0: no bound.
 /// Conservative.
 float farthest_depth(const LightItem& light, const ConsumerItem& consumer);

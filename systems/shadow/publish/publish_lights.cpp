@@ -11,13 +11,12 @@
 #include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/culling/lamp_places.h"
-#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/culling/lit_areas.h"
 #include "systems/shadow/fitting/choose_proxies.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/frame/depth_format.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/projection/depth_rounding.h"
-#include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/publish/lookup_accuracy.h"
 #include "systems/shadow/publish/noise_cell.h"
 #include "systems/shadow/publish/visibility_hash.h"
@@ -274,13 +273,8 @@ void publish_tint(const PublishInputs& in, std::size_t v, LightingLight& out) {
 void publish_unshadowed(const SceneSnapshot& scene, const PublishInputs& in, std::uint32_t i,
                         const ConsumerItem& fitted, const ConsumerItem& consumer, LightingLight& out) {
     const LightItem& light = scene.lights[i];
-    out = {};
     out.light = i;
     out.row.kind_define = light_kind_row(light.kind).define;
-    // The rectangle is the cheaper test, and most of many lights are off screen.
-    out.reach = out.screen = screen_rectangle(light, consumer);
-    if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
-    out.farthest_depth = farthest_depth(light, consumer);
     out.record = light_record(light, lamp_ws_m(in.lamps_ws_m, scene, i), fitted, consumer);
 }
 
@@ -340,12 +334,16 @@ void publish_lights(const SceneSnapshot& scene, const PublishInputs& in, std::ve
         inputs.lights.resize(scene.lights.size());
         for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
             const LightTimer time(cpu_us, i);
-            publish_unshadowed(scene, in, i, fitted, consumer, inputs.lights[i]);
+            LightingLight& light = inputs.lights[i];
+            light = {};
+            light.area = in.lit_areas.empty() ? area_in_range(scene.lights[i], consumer)
+                                              : in.lit_areas[c * scene.lights.size() + i];
+            publish_unshadowed(scene, in, i, fitted, consumer, light);
             const IndexRange views = in.drawn.fitted.lights[i].views;
             for (std::size_t v = views.first; v < views.end(); ++v) {
                 // Cameras that the view is not fitted to may see anything.
                 const bool sees = !scene.pictures.empty() || (in.drawn.view(v).consumer_mask & consumer_bit(c)) != 0;
-                if (sees && in.drawn.has_map(v)) publish_view(scene, in, v, consumer, inputs.lights[i]);
+                if (sees && in.drawn.has_map(v)) publish_view(scene, in, v, consumer, light);
             }
         }
         publish_rays(scene, in, consumer, inputs);

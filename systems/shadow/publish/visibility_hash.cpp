@@ -33,8 +33,8 @@ void add_light(const LightingLight& light, Signature& s) {
     for (const gl::BufferHandle buffer :
          {light.rays.nodes, light.rays.triangles, light.rays.top, light.rays.instances, light.rays.masks})
         s.add(std::uint64_t{buffer.id});
-    add_object(light.screen, s);
-    s.add(light.farthest_depth);
+    add_object(light.area.screen, s);
+    s.add(light.area.farthest_depth);
 }
 
 /// Adds the content of the layers of the light's map. Returns false if they are stale, or if rays replace a map that

@@ -34,7 +34,9 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         layer.drawn = assigned.content.still;
         if (!present && !again) continue;
         const auto still = inputs.fitted.static_casters_of(view);
-        if (!pays_to_copy(scene, gpu, still, layer_bytes(map)) || !maps.provide_static_copy(map)) continue;
+        if (!pays_to_copy(scene, gpu, still, layer_bytes(map))) continue;
+        if (!map.still.is_worth_room) map.still.is_worth_room = pays_to_copy(scene, gpu, still, kWorthRoom_bytes);
+        if (!maps.provide_static_copy(map)) continue;
         plan.copy.use = present ? StaticCopyUse::copy : StaticCopyUse::fill;
         plan.copy.texture = map.still.texture;
         plan.copy.triangles = map.still.triangles;

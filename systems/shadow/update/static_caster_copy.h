@@ -5,6 +5,7 @@
 
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/budget/automatic_limit.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/update/update_inputs.h"
 
@@ -13,6 +14,10 @@ namespace gnomon::shadow {
 /// Bytes that take as long to copy as one triangle takes to draw (docs/explanation/caching.md, "Caching", has the
 /// measurement).
 inline constexpr std::uint64_t kCopiedBytesPerTriangle = 256;
+
+/// Work of drawing a view's static casters from which the budget leaves room for their copy, as bytes that take as long
+/// to copy. It is as much as all maps take by the automatic limit: a million triangles.
+inline constexpr std::uint64_t kWorthRoom_bytes = kAutomatic_bytes;
 
 /// Returns whether drawing these casters is more work than copying `bytes`. Counted, not timed, so that the result is
 /// the same on every device.

@@ -19,7 +19,7 @@ double learned_factor(ShadowFilter drawn, ShadowFilter said) {
     decision.request.map.filter = ShadowFilter::exact;
     LightingLight light;
     light.row.filter_file = "any";
-    light.screen = {0, 0, 1000, 1000};
+    light.area.screen = {0, 0, 1000, 1000};
     LightingInputs inputs;
     inputs.lights = {light};
     FrameReport report;
