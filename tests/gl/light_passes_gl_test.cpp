@@ -73,6 +73,41 @@ TEST_F(ManyPasses, WithRangesGiveTheSamePictureWithoutTheirBounds) { EXPECT_GT(b
 
 TEST_F(ManyPasses, WithoutRangesGiveTheSamePictureWithoutTheirBounds) { EXPECT_GT(bounded_passes(0.0f), 60u); }
 
+TEST_F(LightPasses, InFogCoverWhatScattersInTheAirToo) {
+    place(add_mesh(game::make_box({-9.0, -0.5, -60.0}, {9.0, 0.0, 0.0})), {}, false);
+    place(add_mesh(game::make_box({-0.3, 0.0, -20.3}, {0.3, 1.5, -19.7})));
+    const ecs::Entity mist = world.create();
+    world.emplace<Transform>(mist, {.translation_m = {0.0, 4.0, -20.0}});
+    world.emplace<FogVolume>(mist, {.half_extent_m = {9.0, 4.0, 3.0}, .extinction_per_m = 0.2f});
+    add_camera({}, {0.0, 3.0, 0.0}, {0.0, 0.0, -1.0});
+    Light lamp;
+    lamp.kind = LightKind::spot;
+    lamp.intensity = 4000.0f;
+    lamp.inner_cone_rad = 0.3f;
+    lamp.outer_cone_rad = 0.4f;
+    for (const bool shadow : {true, false}) {
+        const ecs::Entity light = add_light(lamp, {shadow ? -1.0 : 4.0, 7.0, -20.0}, {0.0, -1.0, 0.0});
+        if (!shadow) world.remove<LightShadow>(light);
+    }
+    for (const bool receives : {true, false}) {
+        world.patch<FogVolume>(mist, [&](FogVolume& fog) { fog.receives_shadow = receives; });
+        run();
+        const std::vector<std::uint8_t> lit = drawn_picture();
+        EXPECT_EQ(drawn_with(false, false), lit);
+        for (const shadow::LightingLight& light : inputs().lights) {
+            EXPECT_GT(light.area.screen.height, 20) << "the air above the ground is lit";
+            EXPECT_LT(light.area.screen.width, 100);
+        }
+        // Control: the pass of the ground alone leaves the lit air out.
+        shadow::LightingInputs ground = inputs();
+        for (shadow::LightingLight& light : ground.lights) light.area.screen.height = 8;
+        gl::CommandList list;
+        record_picture(ground, list);
+        GlTest::run(list);
+        EXPECT_NE(drawn_picture(), lit);
+    }
+}
+
 TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
     place(add_mesh(game::make_card({0, 0, 0}, {2, 0, 0}, {0, 2, 0})), {}, false);
     add_camera({}, {0.0, 0.0, 5.0}, {0.0, 0.0, -1.0});

@@ -67,7 +67,17 @@ void expect_same_view(const FittedViews& a, const ShadowView& of_a, const Fitted
     EXPECT_TRUE(same(a.meshes_of(of_a), b.meshes_of(of_b)));
 }
 
+void expect_same_areas(std::span<const LitArea> a, std::span<const LitArea> b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].reach, b[i].reach);
+        EXPECT_EQ(a[i].screen, b[i].screen);
+        EXPECT_EQ(a[i].farthest_depth, b[i].farthest_depth);
+    }
+}
+
 void expect_same(const ShadowFrame& a, const ShadowFrame& b) {
+    expect_same_areas(a.sets.lit_areas, b.sets.lit_areas);
     ASSERT_EQ(a.fitted.lights.size(), b.fitted.lights.size());
     ASSERT_EQ(a.fitted.views.size(), b.fitted.views.size());
     for (std::uint32_t i = 0; i < a.fitted.lights.size(); ++i) {
