@@ -177,6 +177,13 @@ expect "and run under sanitizers, as long as others" called "asan --output-junit
 run GNOMON_PROGRESS_S=1 TESTS_TAKE_S=2.5 TESTS_STATUS=8 -- test
 expect "a failed test fails" is "$status" 1
 expect "and is counted while others run" has "$err" "testing (release), 2 of 2, 1 failed"
+# The test that is done is a hundredth of the work: half of the tests are not half of the time.
+mkdir -p "$project/.ci"
+printf '%s\n' 'release slow 1 99' 'release quick 1 1' >"$project/.ci/test_seconds.txt"
+stand_in ctest 'if [[ " $* " == *" -N "* ]]; then printf "  Test #1: slow\n  Test #2: quick\n"; exit; fi
+    printf "1/2 Test #2: quick ... Passed\n"; sleep "${TESTS_TAKE_S:-0}"; printf "2/2 Test #1: slow ... Passed\n"'
+run GNOMON_PROGRESS_S=1 TESTS_TAKE_S=6 -- test
+expect "what is left follows what tests took before" has "$err" "about 8:"
 run -- test; expect "no limit of seconds for users" not_has "$out" most-s
 run GNOMON_SLOWEST_S=60 -- test; expect "but where asked for" has "$out" "--most-s 60"
 
