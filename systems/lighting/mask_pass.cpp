@@ -204,7 +204,7 @@ void MaskPass::record_light(const MaskInputs& in, std::uint32_t layer, std::uint
             {used, gl::CullMode::none, false, gl::DepthTest::less, takes_depth, false, gl::Blend::off}});
         bind_inputs(in, layer, sample, program, list);
         if (program.edges) bind_shares(list);
-        list.add(gl::DrawTriangle{in.inputs.lights[light].area.farthest_depth});
+        list.add(gl::DrawTriangle{in.inputs.lights[light].area.reach_depth});
     };
     if (program.edges) return draw(program.edges.reads, false);
     if (program.decided_program) draw(program.decided_program, true);
@@ -221,8 +221,7 @@ void MaskPass::bind_shares(gl::CommandList& list) const {
 void MaskPass::record_edges(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample,
                             const LightProgram& program, const gl::Rect& area, gl::CommandList& list) const {
     const auto bind = [&] { bind_inputs(in, layer, sample, program, list); };
-    edges_.record(program, {depth_, area, in.inputs.lights[in.layers[layer]].area.farthest_depth}, sampler_, bind,
-                  list);
+    edges_.record(program, {depth_, area, in.inputs.lights[in.layers[layer]].area.reach_depth}, sampler_, bind, list);
 }
 
 /// Binds what a light's programs read: surfaces, its maps, or its visibility as EdgePass has found it.

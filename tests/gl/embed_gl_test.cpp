@@ -67,6 +67,22 @@ TEST_F(EmbedTest, SpotsTurnedAboutTheirDirectionAreAsRight) {
     }
 }
 
+/// Draws a wall that the engine never declared, behind all that it did. Nothing stands between it and the lamp.
+TEST_F(EmbedTest, SurfacesBehindWhatIsDeclaredAreLit) {
+    make_engine(Depths::usual_float);
+    add(game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 2.0}, {2.0, 0.0, 0.0}));
+    add(game::make_box({-0.8, 0.2, -0.5}, {0.8, 0.3, 0.5}));
+    const game::Shape wall = game::make_card({0.0, 0.0, -8.0}, {30.0, 0.0, 0.0}, {0.0, 30.0, 0.0});
+    engine->add(wall.positions, wall.indices);
+    add_shadowed(LightKind::point, {1.5, 3.0, 1.0});  // without a range
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    const std::vector<std::uint8_t> mask = masked();
+    constexpr std::size_t kTop = std::size_t{kWidth_px} * 20;
+    EXPECT_EQ(std::count(mask.end() - kTop, mask.end(), 255), static_cast<std::ptrdiff_t>(kTop));
+    EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 100) << "control: the box throws a shadow";
+}
+
 TEST_P(EmbedMask, NeedsNoNormals) {
     const auto [kind, depths] = GetParam();
     make_engine(depths);

@@ -105,7 +105,8 @@ bool receivers_bound(const LightItem& light, const LightSets& sets, const Instan
 
 LitArea area_in_range(const LightItem& light, const ConsumerItem& camera) {
     const gl::Rect reach = screen_rectangle(light, camera);
-    return {reach, reach, farthest_depth(light, camera)};
+    const float depth = farthest_depth(light, camera);
+    return {reach, depth, reach, depth};
 }
 
 LitArea lit_area(const SceneSnapshot& scene, std::uint32_t light, const ConsumerItem& camera,

@@ -49,7 +49,7 @@ struct PublishInputs {
     std::span<const TintAssignment> tints = {};    // one per view; empty: no light has translucent casters in its maps
     std::span<const std::uint8_t> ray_tints = {};  // ShadowFrame::ray_tints
     gl::BufferHandle tint_tree = {};               // for these lights
-    std::span<const LitArea> lit_areas = {};       // ReceiverCasterSets::lit_areas; empty: whole pictures
+    std::span<const LitArea> lit_areas = {};       // ReceiverCasterSets::lit_areas; empty: by range alone
 };
 
 /// Publishes, for each camera that draws, each light with its program row, record and textures (stage 6). A light
