@@ -14,6 +14,7 @@ set(GNOMON_CORE_SOURCES
   engine/mesh/deformer.cpp
   engine/mesh/half_edges.cpp
   engine/mesh/mesh_normals.cpp
+  engine/mesh/inner_box.cpp
   engine/mesh/mesh_shape.cpp
   engine/mesh/mesh_topology.cpp
   engine/mesh/mesh_weld.cpp
@@ -64,6 +65,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/culling/nearest_receiver.cpp
   systems/shadow/culling/error_points.cpp
   systems/shadow/culling/lit_areas.cpp
+  systems/shadow/culling/occluders.cpp
   systems/shadow/culling/receiver_caster_sets.cpp
   systems/shadow/culling/receiver_hull.cpp
   systems/shadow/culling/static_dynamic_casters.cpp

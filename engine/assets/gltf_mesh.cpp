@@ -15,6 +15,7 @@
 #include "engine/assets/openmesh_parts.h"
 #include "engine/math/finite.h"
 #include "engine/math/shape_tree.h"
+#include "engine/mesh/inner_box.h"
 #include "engine/mesh/mesh_shape.h"
 #include "engine/mesh/mesh_topology.h"
 
@@ -92,6 +93,7 @@ private:
         mesh.topology = analyse_topology(mesh, openmesh_parts);
         mesh.deformer = deformer.finish(mesh, pointer("meshes", index));
         if (!mesh.deformer) mesh.shape = shape_of(mesh);
+        if (!mesh.deformer) mesh.inner_ms = inner_box(mesh);
         if (mesh.shape) document_.charge(mesh.shape->bytes(), pointer("meshes", index));
         return mesh;
     }

@@ -76,6 +76,7 @@ struct Mesh {
     math::Aabb bounds_ms;
     Topology topology;                             // decides which faces cast
     std::shared_ptr<const math::ShapeTree> shape;  // boxes around the triangles; null: bounds_ms alone
+    math::Aabb inner_ms;  // box inside of a closed part, mesh space: it hides what is behind it; empty: none is known
     /// Joints and morph targets of a file's mesh; null: rigid. All other fields describe the mesh at rest.
     std::shared_ptr<const Deformer> deformer;
     std::vector<MeshProxy> proxies;  // by rising bound; add_proxies() makes them
@@ -120,9 +121,9 @@ struct Texture {
     bool linear_filter = true;                                               // false: the nearest texel
 };
 
-/// Fills in bounds, topology and shape, which follow from vertices, indices and submeshes. Cost: in proportion to the
-/// triangles. Call it for each mesh of your own making. Without a topology a mesh counts as open, and is drawn from
-/// both sides.
+/// Fills in bounds, topology, shape and inner box, which follow from vertices, indices and submeshes. Cost: in
+/// proportion to the triangles. Call it for each mesh of your own making. Without a topology a mesh counts as open, and
+/// is drawn from both sides.
 void complete(Mesh& mesh);
 
 /// Versions of numbered things that come and go, and numbers that are free.

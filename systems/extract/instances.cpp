@@ -58,8 +58,30 @@ bool earlier(const InstanceItem& a, const InstanceItem& b) { return a.entity.ind
 
 /// Lets go of the shapes of meshes that went.
 void free_shapes(const assets::MeshLibrary& library, MeshFacts& meshes) {
-    for (std::size_t m = 0; m < meshes.shapes.size(); ++m)
-        if (meshes.shapes[m] != library.meshes[m].shape) meshes.shapes[m] = nullptr;
+    for (std::size_t m = 0; m < meshes.shapes.size(); ++m) {
+        if (meshes.shapes[m] == library.meshes[m].shape) continue;
+        meshes.shapes[m] = nullptr;
+        if (m < meshes.inner_boxes_ms.size()) meshes.inner_boxes_ms[m] = {};
+    }
+}
+
+/// Returns whether nothing is seen through the mesh.
+bool is_opaque(const assets::MeshLibrary& library, const assets::Mesh& mesh) {
+    return std::all_of(mesh.submeshes.begin(), mesh.submeshes.end(), [&](const assets::Submesh& submesh) {
+        const assets::Material& material = library.materials[submesh.material];
+        return material.alpha_mode == assets::AlphaMode::opaque && !assets::transmits(material);
+    });
+}
+
+/// Lists the boxes inside of rigid, opaque meshes. The list is empty if no mesh has one.
+void list_inner_boxes(const assets::MeshLibrary& library, MeshFacts& meshes) {
+    meshes.inner_boxes_ms.clear();
+    const auto hides = [&](const assets::Mesh& mesh) {
+        return !math::is_empty(mesh.inner_ms) && !mesh.deformer && is_opaque(library, mesh);
+    };
+    if (std::none_of(library.meshes.begin(), library.meshes.end(), hides)) return;
+    for (const assets::Mesh& mesh : library.meshes)
+        meshes.inner_boxes_ms.push_back(hides(mesh) ? mesh.inner_ms : math::Aabb{});
 }
 
 /// Lists the shapes of rigid meshes. The list is empty if no mesh has one, so that users can skip it.
@@ -188,6 +210,7 @@ void InstanceExtractor::list(const ecs::Registry& registry, const assets::MeshLi
     unusable_.clear();
     list_shapes(library, snapshot.meshes);
     list_proxies(library, snapshot.meshes);
+    list_inner_boxes(library, snapshot.meshes);
     shapes_version_ = library.version;
     registry.each<MeshRef, WorldTransform>([&](ecs::Entity e, const MeshRef&, const WorldTransform&) {
         append(registry, library, e, snapshot, snapshot.instances);
@@ -261,6 +284,7 @@ InstanceExtractor::Splice InstanceExtractor::splice(const ecs::Registry& registr
     if (std::exchange(shapes_version_, library.version) != library.version) {
         list_shapes(library, snapshot.meshes);
         list_proxies(library, snapshot.meshes);
+        list_inner_boxes(library, snapshot.meshes);
     }
     note_places(splice_instances(snapshot, splice_), snapshot);
     note_bent(snapshot);

@@ -160,6 +160,8 @@ struct MeshFacts {
     /// are used, as they must be for deformable meshes.
     std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
     std::vector<std::vector<ProxyItem>> proxies;  // each by rising bound; empty: no mesh has any
+    /// Boxes inside of rigid, opaque meshes (assets::Mesh::inner_ms); empty: none, or others draw the instances.
+    std::vector<math::Aabb> inner_boxes_ms;
 };
 
 /// Returns the boxes around the mesh's triangles; null: its bounds are all that is known.
@@ -171,6 +173,11 @@ inline const math::ShapeTree* shape_of(const MeshFacts& meshes, std::uint32_t me
 inline std::span<const ProxyItem> proxies_of(const MeshFacts& meshes, std::uint32_t mesh) {
     return mesh < meshes.proxies.size() ? std::span<const ProxyItem>(meshes.proxies[mesh])
                                         : std::span<const ProxyItem>();
+}
+
+/// Returns the box inside of the mesh; empty: none is known.
+inline math::Aabb inner_box_of(const MeshFacts& meshes, std::uint32_t mesh) {
+    return mesh < meshes.inner_boxes_ms.size() ? meshes.inner_boxes_ms[mesh] : math::Aabb{};
 }
 
 struct SceneSnapshot;

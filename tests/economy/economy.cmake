@@ -5,5 +5,5 @@ gnomon_tests(NAME system_economy LABEL system SOURCES
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME system_many_lights LABEL system SOURCES system/many_lights_test.cpp LIBRARIES gnomon_bench_parts)
   gnomon_tests(NAME gl_economy LABEL gl SOURCES ${GNOMON_ECONOMY_SOURCES} gl/economy_identity_gl_test.cpp
-    gl/kept_visibility_gl_test.cpp gl/dim_lights_gl_test.cpp LIBRARIES gnomon_oracle gnomon_sample)
+    gl/hidden_lights_gl_test.cpp gl/kept_visibility_gl_test.cpp gl/dim_lights_gl_test.cpp LIBRARIES gnomon_oracle gnomon_sample)
 endif()

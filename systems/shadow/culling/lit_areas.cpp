@@ -10,6 +10,7 @@
 #include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/culling/occluders.h"
 #include "systems/shadow/frame/light_jobs.h"
 #include "systems/shadow/projection/light_range.h"
 #include "systems/shadow/projection/screen_bounds.h"
@@ -123,6 +124,7 @@ LitArea lit_area(const SceneSnapshot& scene, std::uint32_t light, const Consumer
         if (!clip_lit_instances(scene, item, camera, scratch)) return area;
         corners_ws = scratch.points_ws;
     }
+    if (searched && are_hidden(searched->occluders, corners_ws)) corners_ws = {};
     const SeenBounds bounds = bounds_of(corners_ws, camera);
     area.screen = on_grid(bounds, area.screen, camera.viewport_px);
     if (area.screen.width > 0)

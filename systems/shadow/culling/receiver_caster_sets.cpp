@@ -13,6 +13,7 @@
 #include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/lit_areas.h"
 #include "systems/shadow/culling/nearest_receiver.h"
+#include "systems/shadow/culling/occluders.h"
 #include "systems/shadow/culling/receiver_hull.h"
 #include "systems/shadow/culling/swept_volume.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -277,6 +278,7 @@ void select_on_threads(const SetInputs& inputs, const Select& select, StageStora
         results.sets.clear();
         results.sets.camera_frusta = sets.camera_frusta;
         results.sets.nearest_surface_m = sets.nearest_surface_m;
+        results.sets.occluders = sets.occluders;
     }
     for_each_light(inputs.jobs, sets.lights.size(), [&](std::size_t light, std::size_t thread) {
         storage.thread_of[light] = thread;
@@ -298,6 +300,11 @@ LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, con
                             const glm::dvec3& lamp_ws_m, SetScratch& scratch, ReceiverCasterSets& out) {
     const LightItem& item = scene.lights[light];
     LightSets sets = Search(scene, item, lamp_ws_m, scratch, out).run(request);
+    if (!light_facts(item.kind).parallel &&
+        are_hidden(out.occluders, slice(out.receiver_points_ws, sets.receiver_points))) {
+        sets.receivers.count = sets.receiver_points.count = sets.error_points.count = 0;
+        return sets;
+    }
     sets.casters = select_casters(scene, item, request, sets.hulls, scratch, out);
     return sets;
 }
@@ -316,6 +323,8 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, StageStora
             sets.nearest_surface_m.push_back(
                 nearest_receiver_m(scene, consumer, layers, first.points_ws, ReceiverKinds::surfaces));
     }
+    if (scene.consumers.size() == 1 && scene.pictures.empty())
+        find_occluders(scene, scene.consumers.front(), sets.occluders);
     sets.lights.resize(lights);
     const auto select = [&](std::size_t index, std::size_t thread, ReceiverCasterSets& out) {
         const auto i = static_cast<std::uint32_t>(index);

@@ -10,6 +10,7 @@
 #include "systems/shadow/frame/index_set.h"
 #include "systems/shadow/frame/instance_layers.h"
 #include "systems/shadow/frame/lit_area.h"
+#include "systems/shadow/frame/occluder.h"
 #include "systems/shadow/frame/split_scratch.h"
 
 namespace gnomon::shadow {
@@ -48,6 +49,7 @@ struct ReceiverCasterSets {
     std::vector<LightSets> lights;              // one per light; empty ranges where it is skipped
     std::vector<math::Frustum> camera_frusta;   // one per camera view; near plane at its nearest receiver
     std::vector<double> nearest_surface_m;      // one per camera view, view depth; empty: no receiver is air
+    std::vector<Occluder> occluders;            // seen by the only camera view; several: none
     std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
     std::vector<std::uint32_t> caster_items;    // indices into SceneSnapshot::instances
     std::vector<glm::dvec3> receiver_points_ws;
@@ -84,6 +86,7 @@ inline void ReceiverCasterSets::clear() {
     lights.clear();
     camera_frusta.clear();
     nearest_surface_m.clear();
+    occluders.clear();
     receiver_items.clear();
     caster_items.clear();
     receiver_points_ws.clear();
