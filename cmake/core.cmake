@@ -68,6 +68,7 @@ set(GNOMON_CORE_SOURCES
   systems/shadow/culling/occluders.cpp
   systems/shadow/culling/receiver_caster_sets.cpp
   systems/shadow/culling/receiver_hull.cpp
+  systems/shadow/culling/receiver_mask.cpp
   systems/shadow/culling/static_dynamic_casters.cpp
   systems/shadow/culling/swept_volume.cpp
   systems/shadow/culling/view_casters.cpp

@@ -28,7 +28,9 @@ protected:
         add_material({.name = "matt", .metallic = 0.0f});
         const std::uint32_t glass = add_material(
             {.name = "glass", .base_colour = {0.3f, 0.5f, 0.4f, 0.5f}, .alpha_mode = assets::AlphaMode::blend});
-        place(add_complete(game::make_card(glm::dvec3(0.0), {60.0, 0.0, 0.0}, {0.0, 0.0, -60.0})));
+        const std::uint32_t slab = add_complete(game::make_card(glm::dvec3(0.0), {4.0, 0.0, 0.0}, {0.0, 0.0, -4.0}));
+        for (int x = -8; x <= 8; ++x)
+            for (int z = -10; z <= 4; ++z) place(slab, {.translation_m = {4.0 * x, 0.0, 4.0 * z}});
         game::Shape house = game::make_box({-1.0, -0.1, -0.8}, {1.0, 2.0, 0.8});
         game::append(house, game::make_box({-1.1, 1.9, -0.9}, {1.1, 2.1, 0.9}));
         const std::uint32_t house_mesh = add_complete(house, glass_houses ? glass : 0);
@@ -64,6 +66,12 @@ protected:
         return lights;
     }
 
+    LightCounts frame_counts(ecs::Entity light) {
+        for (const LightReport& report : frame().report().lights)
+            if (report.entity == light) return report.counts;
+        return {};
+    }
+
     std::mt19937_64 random;
 };
 
@@ -83,6 +91,43 @@ TEST_F(HiddenLightsGl, ArePictureForPictureThoseThatAreLookedUp) {
     }
     EXPECT_GT(hidden, lights / 20) << "of " << lights;
     EXPECT_LT(hidden, lights * 3 / 4);
+}
+
+TEST_F(HiddenLightsGl, LeaveATurningSunItsPictureToTheBit) {
+    const std::uint64_t seed = print_seed();
+    struct Turn {
+        std::vector<Bytes> pictures;
+        std::uint64_t triangles = 0;
+    };
+    const auto turned = [&](std::uint64_t round, bool look_behind, ShadowFilter filter) {
+        build(seed + round, look_behind);
+        const glm::dvec3 down(number(-1.0, 1.0), -number(0.3, 1.0), number(-1.0, 1.0));
+        const ecs::Entity sun = add_light({.kind = LightKind::directional, .intensity = 300.0f}, {0.0, 9.0, 0.0}, down,
+                                          {.filter = filter, .resolution_px = 256});
+        Turn turn;
+        for (int frame = 0; frame < 5; ++frame) {
+            world.patch<Transform>(sun, [&](Transform& t) {
+                t.rotation = looking_along(down + glm::dvec3(0.002 * std::min(frame, 3), 0.0, 0.0));
+            });
+            draw();
+            turn.pictures.push_back(picture());
+            if (frame == 3) turn.triangles = frame_counts(sun).triangles;
+        }
+        return turn;
+    };
+    std::uint64_t fewer = 0, all = 0;
+    for (std::uint64_t round = 0; round < 12; ++round) {
+        const ShadowFilter filter = round % 3 == 0   ? ShadowFilter::evsm2
+                                    : round % 3 == 1 ? ShadowFilter::pcf_grid
+                                                     : ShadowFilter::automatic;
+        const Turn open = turned(round, true, filter), hidden = turned(round, false, filter);
+        EXPECT_EQ(hidden.pictures, open.pictures) << "round " << round;
+        EXPECT_NE(hidden.pictures[2], hidden.pictures[3]) << "the sun turns";
+        fewer += hidden.triangles;
+        all += open.triangles;
+    }
+    EXPECT_LT(fewer, all);
+    EXPECT_GT(fewer, 0u);
 }
 
 TEST_F(HiddenLightsGl, AreNotHiddenByGlass) {

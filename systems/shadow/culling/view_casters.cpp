@@ -11,6 +11,7 @@
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/receiver_hull.h"
+#include "systems/shadow/culling/receiver_mask.h"
 #include "systems/shadow/culling/static_dynamic_casters.h"
 #include "systems/shadow/culling/swept_volume.h"
 #include "systems/shadow/projection/lispsm_math.h"
@@ -42,12 +43,13 @@ LightFrustum frustum_of(const ShadowView& view) {
 
 class ViewSearch {
 public:
-    ViewSearch(const SceneSnapshot& scene, const LightSetsView& sets, const FilterSettings& filter,
-               const ShadowView& view, SetScratch& scratch)
-        : scene_(scene), light_(scene.lights[view.light]), view_(view), sets_(sets), scratch_(scratch) {
+    ViewSearch(const SceneSnapshot& scene, const CasterInputs& inputs, const ShadowView& view, SetScratch& scratch)
+        : scene_(scene), light_(scene.lights[view.light]), view_(view), sets_(inputs.sets), scratch_(scratch) {
         // A tap reaches E texels from its point, which may lie anywhere in its texel.
-        const double reach = std::ceil(static_cast<double>(filter.widest_texel)) + 1.0;
+        const double reach = std::ceil(static_cast<double>(inputs.filter.widest_texel)) + 1.0;
         reach_ = reach * glm::dvec2(view.plane.texel_u, view.plane.texel_v);
+        masks_ = inputs.seen && !view.stays && is_parallel(view) && view.plane.warp == glm::dvec2(0.0);
+        if (masks_) build_receiver_mask(scene, *inputs.seen, view, reach_, scratch.mask);
     }
 
     void run() {
@@ -65,12 +67,14 @@ private:
         const auto seen =
             view_.stays ? std::span<const math::Plane>() : seen_by_the_only_consumer(sets_.arrays.camera_frusta);
         const SweptVolume volume = swept_volume(receiver_hull, scratch_.polygon, seen, reach_m);
-        visit_instances(
-            scene_, tests_of(volume),
-            [&](const math::Aabb& box, math::OpenTests& open) { return overlap(volume, box, open); },
-            [&](std::uint32_t i) {
-                if (scratch_.layers->casts_under(light_, i)) scratch_.marks.add(i);
-            });
+        const auto classify = [&](const math::Aabb& box, math::OpenTests& open) {
+            const math::Overlap of_volume = overlap(volume, box, open);
+            if (!masks_ || of_volume == math::Overlap::outside) return of_volume;
+            return covers(scratch_.mask, box) ? math::Overlap::partial : math::Overlap::outside;
+        };
+        visit_instances(scene_, tests_of(volume), classify, [&](std::uint32_t i) {
+            if (scratch_.layers->casts_under(light_, i)) scratch_.marks.add(i);
+        });
     }
 
     /// Transforms scratch_.polygon into the warped plane. Clips parts with a smaller w than any point of the map.
@@ -195,6 +199,7 @@ private:
     const LightSetsView& sets_;
     SetScratch& scratch_;
     glm::dvec2 reach_{0.0};  // radius of the filter, metres or tangents
+    bool masks_ = false;     // scratch_.mask has the receivers that are seen
 };
 
 /// Appends the marked instances by mesh, then by index, because one draw per mesh needs equal meshes side by side.
@@ -241,7 +246,7 @@ std::uint32_t partition_dynamic_last(const SceneSnapshot& scene, std::span<const
 
 void select_view_casters(const SceneSnapshot& scene, const CasterInputs& inputs, ShadowView& view, SetScratch& scratch,
                          std::vector<std::uint32_t>& casters) {
-    ViewSearch(scene, inputs.sets, inputs.filter, view, scratch).run();
+    ViewSearch(scene, inputs, view, scratch).run();
     view.casters.first = static_cast<std::uint32_t>(casters.size());
     append_by_mesh(scene, scratch, casters);
     view.casters.count = static_cast<std::uint32_t>(casters.size()) - view.casters.first;

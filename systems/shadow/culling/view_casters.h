@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct CasterInputs {
     LightSetsView sets;  // sets of the view's light
     const FilterSettings& filter;
     std::span<const std::uint64_t> moving;  // result of DynamicCasters::moving(); empty: all are static
+    /// Receivers of a sun that a camera may see (receiver_mask.h), for views that do not stay; none: not searched.
+    std::optional<std::span<const std::uint32_t>> seen = {};
 };
 
 /// Appends the casters of one fitted view to `casters`. These can darken its visible receivers, the filter's width

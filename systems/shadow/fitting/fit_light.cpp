@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/math/frustum.h"
 #include "systems/extract/light_facts.h"
 #include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/culling/receiver_mask.h"
 #include "systems/shadow/culling/view_casters.h"
 #include "systems/shadow/fitting/choose_proxies.h"
 #include "systems/shadow/fitting/error_bound.h"
@@ -106,6 +108,12 @@ bool settle_size(const LightItem& light, std::span<const ShadowView> views, cons
     return true;
 }
 
+/// Returns a light's direction for the next fit.
+TurnHistory turned(const TurnHistory& previous, const LightItem& light) {
+    const glm::dvec3& back_ws = light.rotation_ws[2];
+    return {back_ws, previous.back_ws != glm::dvec3(0.0) && previous.back_ws != back_ws};
+}
+
 /// Returns whether what is seen needs other sizes. The best number of cascades then may change as well.
 bool has_stepped(const LightFitHistory& previous, const LightFitHistory& next) {
     if (next.splits.near_step != previous.splits.near_step || next.splits.far_step != previous.splits.far_step)
@@ -147,7 +155,10 @@ std::span<const ShadowView> LightFit::views() const { return std::span(out_.view
 Reason LightFit::run(const LightFitHistory& previous, bool recount, LightFitHistory& next) {
     forget_views();
     out_.casters.resize(first_caster_);
-    const Reason reason = fit_and_count(previous, recount, next) ? select_casters() : Reason::fit_degenerate;
+    const TurnHistory turn = turned(previous.turn, light_);
+    const bool turns = turn.turned && previous.turn.turned;
+    const Reason reason = fit_and_count(previous, recount, next) ? select_casters(turns) : Reason::fit_degenerate;
+    next.turn = turn;
     if (reason != Reason::none) forget_views();
     out_.lights[index_].views = {static_cast<std::uint32_t>(first_view_), static_cast<std::uint32_t>(views().size())};
     return reason;
@@ -289,18 +300,24 @@ bool LightFit::has_casters_by_depth(const ShadowView& view) const {
 }
 
 /// Selects the casters of each view. A cube's face may be drawn without casters: a filter that reads across seams must
-/// find it empty.
-Reason LightFit::select_casters() {
+/// find it empty. `turns`: a sun's maps are drawn again whatever they hold, so that they hold no more than is seen.
+Reason LightFit::select_casters(bool turns) {
     ShadowRequest& request = out_.lights[index_].request;
     const bool samples = light_facts(light_.kind).parallel && light_.tuning.cascades.splits == CascadeSplits::sampled;
     if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
+    std::optional<std::span<const std::uint32_t>> seen;
+    if (turns && !inputs_.sets.occluders.empty()) {
+        find_seen_receivers(scene_, light_, inputs_.sets, *scratch_.sets.layers, scratch_.sets.seen);
+        seen = scratch_.sets.seen;
+    }
     bool any = false;
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {
         ShadowView& view = out_.views[v];
         if (!request.rays.used && depth_step_m(view, request.map.depth_format) > view.error.texel_m &&
             view.error.texel_m > 0.0 && request.note == Reason::none)
             request.note = Reason::depth_coarse;
-        const CasterInputs inputs{out_.sets_of(inputs_.sets, index_), request.map.filtering, inputs_.moving};
+        if (turns && is_parallel(view)) view.stays = false;
+        const CasterInputs inputs{out_.sets_of(inputs_.sets, index_), request.map.filtering, inputs_.moving, seen};
         select_view_casters(scene_, inputs, view, scratch_.sets, out_.casters);
         view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;
         state_edges(filter_row(request.map.filter).storage.triangle_ids && !has_casters_by_depth(view), view);

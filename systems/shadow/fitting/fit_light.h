@@ -71,7 +71,7 @@ private:
     bool fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& previous,
                    LightFitHistory& next);
     void select_sets_again();
-    Reason select_casters();
+    Reason select_casters(bool turns);
 
     const SceneSnapshot& scene_;
     const FitInputs& inputs_;

@@ -123,6 +123,13 @@ struct CountHistory {
     bool operator==(const CountHistory&) const = default;
 };
 
+/// Direction of a sun.
+struct TurnHistory {
+    glm::dvec3 back_ws{0.0};  // toward the sun at its last fit; 0: there was none
+    bool turned = false;      // it was another one at the fit before
+    bool operator==(const TurnHistory&) const = default;
+};
+
 /// Light that uses rays.
 struct RayHistory {
     bool fell_back = false;           // RayUse::fell_back of the last frame
@@ -150,6 +157,7 @@ struct LightFitHistory {
     SizeHistory size;
     CountHistory count;
     FilterHistory filter;
+    TurnHistory turn;
     RayHistory rays;
     BudgetHistory budget;
     bool operator==(const LightFitHistory&) const = default;

@@ -11,6 +11,7 @@
 #include "systems/shadow/frame/instance_layers.h"
 #include "systems/shadow/frame/lit_area.h"
 #include "systems/shadow/frame/occluder.h"
+#include "systems/shadow/frame/receiver_mask.h"
 #include "systems/shadow/frame/split_scratch.h"
 
 namespace gnomon::shadow {
@@ -111,6 +112,8 @@ struct SetScratch {
     SplitScratch split;
     std::vector<glm::dvec3> points_ws;
     std::vector<std::uint32_t> surfaces;  // candidates of one camera that are no air
+    std::vector<std::uint32_t> seen;      // receivers that no occluder hides
+    ReceiverMask mask;
     std::vector<glm::dvec2> points, polygon, clipped, outline;
     std::vector<std::uint32_t> items, mesh_starts;
 };
