@@ -23,6 +23,7 @@ void KeptVisibility::begin(ecs::Entity camera, std::uint64_t most_bytes) {
     camera_ = camera;
     most_bytes_ = most_bytes;
     next_ = 0;
+    scratch_bytes_ = 0;
     ++picture_;
     free_scratch();
     if (bytes() > most_bytes) release();
@@ -48,6 +49,8 @@ KeptVisibility::Plan KeptVisibility::plan(ecs::Entity light, std::uint64_t signa
     if (signature == 0) return {};
     Entry& kept = entry(light);
     kept.requested_picture = picture_;
+    kept.wanted_bytes = bytes_of(size_of(area));
+    if (!is_whole(area, picture_px)) scratch_bytes_ = bytes_of(picture_px);
     if (kept.signature != signature) {
         kept.signature = signature;
         kept.still_frames = 0;
@@ -151,6 +154,12 @@ std::uint64_t KeptVisibility::bytes() const {
     std::uint64_t sum = bytes_of(scratch_px_);
     for (const Entry& kept : entries_)
         if (kept.texture) sum += bytes_of(size_of(kept.area));
+    return sum;
+}
+
+std::uint64_t KeptVisibility::wanted_bytes() const {
+    std::uint64_t sum = scratch_bytes_;
+    for (const Entry& kept : entries_) sum += kept.wanted_bytes;
     return sum;
 }
 

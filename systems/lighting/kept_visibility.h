@@ -51,6 +51,8 @@ public:
     bool is_told() const { return is_told_; }
 
     std::uint64_t bytes() const override;
+    /// Returns the bytes for all lights of the last pictures that may be cached, the scratch of one included.
+    std::uint64_t wanted_bytes() const override;
     void release() override;
     /// Returns true if the texture of a plan still exists.
     bool holds(gl::TextureHandle texture) const;
@@ -68,6 +70,7 @@ private:
         gl::Rect area{};
         gl::TextureHandle texture{};
         gl::TargetHandle target{};
+        std::uint64_t wanted_bytes = 0;
         std::uint64_t requested_picture = 0, read_picture = 0;
         Retry retry;  // for allocations, in pictures
     };
@@ -86,6 +89,7 @@ private:
     glm::uvec2 scratch_px_{0, 0};
     ecs::Entity camera_;
     std::uint64_t picture_ = 0, most_bytes_ = 0;
+    std::uint64_t scratch_bytes_ = 0;  // of the last picture, if some light does not cover it
     bool is_told_ = false;
 };
 

@@ -1,6 +1,7 @@
 #include "systems/shadow/shadow_system.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <utility>
 
@@ -25,6 +26,17 @@ namespace {
 
 /// Largest part of the bytes of maps that is left to copies of static casters: a quarter.
 constexpr std::uint64_t kCopyShare = 4;
+/// Largest part of the automatic limit that is left to kept visibility: an eighth.
+constexpr std::uint64_t kKeptShare = 8;
+
+/// Returns the bytes that maps leave to kept visibility. They change by powers of two, and stay while `wanted` is a
+/// quarter of them or more, since each change may change the sizes of maps. `previous`: the result of the frame before.
+std::uint64_t room_for_kept(std::uint64_t wanted, std::uint64_t previous, std::uint64_t automatic_bytes) {
+    const std::uint64_t most = automatic_bytes / kKeptShare;
+    if (wanted == 0) return 0;
+    if (wanted <= previous && wanted >= previous / 4 && previous <= most) return previous;
+    return std::min(std::bit_ceil(wanted), most);
+}
 
 }  // namespace
 
@@ -134,7 +146,6 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
-    maps_.set_spare(settings.feedback.spare);
     maps_.begin_frame();
     const bool others_move = dynamic_casters_.update(scene);
     const bool unchanged = frame_reuse_.unchanged(scene, settings) && !others_move;
@@ -146,6 +157,13 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     copy_room_ = copies <= std::min(limits.bytes, automatic_bytes) / kCopyShare ? copies : 0;
     for (std::uint64_t* bytes : {&limits.bytes, &automatic_bytes})
         if (*bytes != BudgetLimits::kNone) *bytes -= std::min(*bytes, tint_maps_.wanted_bytes() + copy_room_);
+    if (automatic_bytes != BudgetLimits::kNone) {
+        const std::uint64_t wanted = settings.feedback.spare ? settings.feedback.spare->wanted_bytes() : 0;
+        kept_room_ = room_for_kept(wanted, kept_room_, automatic_bytes);
+        automatic_bytes -= kept_room_;
+    }
+    const bool leaves_kept_room = history_.short_of_bytes && automatic_bytes < limits.bytes;
+    maps_.set_spare(settings.feedback.spare, leaves_kept_room ? kept_room_ : 0);
     if (history_.short_of_bytes) limits.bytes = std::min(limits.bytes, automatic_bytes);
     const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
     reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay() &&

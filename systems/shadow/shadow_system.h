@@ -134,6 +134,7 @@ private:
     StageWatch watch_;
     bool reused_ = false;                           // the last update() reused the frame before it
     std::uint64_t copy_room_ = 0;                   // bytes that the budget leaves to copies of static casters
+    std::uint64_t kept_room_ = 0;                   // bytes that the automatic limit leaves to kept visibility
     bool may_reuse_ = false;                        // the next update() may reuse the last frame
     bool had_casters_ = false, had_masks_ = false;  // buffers of the scene that the last run of the stages found
 };

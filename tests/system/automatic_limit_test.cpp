@@ -111,6 +111,23 @@ TEST_F(AutomaticLimit, IsWhatHoldsThem) {
     EXPECT_FALSE(level->has_budgets());
 }
 
+TEST_F(AutomaticLimit, LeavesRoomToKeptVisibility) {
+    start();
+    // As many frames as it takes until nothing moves and visibility is kept.
+    for (int i = 0; i < 3 * kRest; ++i) level->step();
+    std::uint64_t kept_bytes = 0;
+    std::size_t kept = 0, mapped = 0;
+    for (const LightReport& light : level->step().lights) {
+        kept_bytes += light.kept.bytes;
+        kept += light.kept.reason == Reason::visibility_kept ? 1 : 0;
+        mapped += light.counts.bytes > 0 ? 1 : 0;
+    }
+    EXPECT_GT(level->limited(), 0u) << "the limit binds";
+    EXPECT_GT(kept, mapped * 3 / 4);
+    EXPECT_LE(level->device.map_bytes() + kept_bytes, shadow::kAutomatic_bytes);
+    EXPECT_GT(level->device.map_bytes(), shadow::kAutomatic_bytes / 2);
+}
+
 TEST_F(AutomaticLimit, GrowsWithThePicture) {
     start();
     level->settings.viewport_px = {3840, 2160};

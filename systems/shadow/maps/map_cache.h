@@ -108,11 +108,16 @@ public:
     /// their size. The bytes of layers that no map uses are not counted. Call it before the first assign().
     void share_layers() { shares_layers_ = true; }
     static constexpr std::uint32_t kLeastSharedEdge_px = 256;
-    /// Sets a cache that shares the limit and is evicted before any map. It must outlive this object; null: there is
-    /// none.
-    void set_spare(SpareMemory* spare) { spare_ = spare; }
-    /// Returns the bytes that the limit leaves beside the maps; kNoLimit: unlimited.
-    std::uint64_t room() const { return limit_ == kNoLimit ? kNoLimit : limit_ - std::min(limit_, bytes()); }
+    /// Sets a cache that takes what the limit leaves, and `own_bytes` beside it. It is evicted before any map. It must
+    /// outlive this object; null: there is none.
+    void set_spare(SpareMemory* spare, std::uint64_t own_bytes) {
+        spare_ = spare;
+        spare_bytes_ = own_bytes;
+    }
+    /// Returns the bytes that are left to that cache; kNoLimit: unlimited.
+    std::uint64_t room() const {
+        return limit_ == kNoLimit ? kNoLimit : limit_ - std::min(limit_, bytes()) + spare_bytes_;
+    }
     /// Returns the bytes of all maps when the device last refused one, for kRetryFrames: it has no room for more.
     /// Otherwise kNoLimit.
     std::uint64_t available() const { return frame_ < short_until_frame_ ? available_ : kNoLimit; }
@@ -180,6 +185,7 @@ private:
     std::unordered_map<std::uint32_t, std::uint32_t> places_;  // into lights_, by the entity's index (any number)
     std::uint64_t frame_ = 0, limit_ = kNoLimit, keep_limit_ = kNoLimit;
     SpareMemory* spare_ = nullptr;
+    std::uint64_t spare_bytes_ = 0;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
     bool shares_layers_ = false;
     bool refused_ = false;  // a map was refused in this frame
