@@ -89,7 +89,7 @@ private:
     glm::uvec2 scratch_px_{0, 0};
     ecs::Entity camera_;
     std::uint64_t picture_ = 0, most_bytes_ = 0;
-    std::uint64_t scratch_bytes_ = 0;  // of the last picture, if some light does not cover it
+    std::uint64_t scratch_bytes_ = 0;  // texture of the last picture, if some light does not cover it
     bool is_told_ = false;
 };
 

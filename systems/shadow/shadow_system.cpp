@@ -30,7 +30,7 @@ constexpr std::uint64_t kCopyShare = 4;
 constexpr std::uint64_t kKeptShare = 8;
 
 /// Returns the bytes that maps leave to kept visibility. They change by powers of two, and stay while `wanted` is a
-/// quarter of them or more, since each change may change the sizes of maps. `previous`: the result of the frame before.
+/// quarter of them or more: each change may change the sizes of maps. `previous`: the result of the frame before.
 std::uint64_t room_for_kept(std::uint64_t wanted, std::uint64_t previous, std::uint64_t automatic_bytes) {
     const std::uint64_t most = automatic_bytes / kKeptShare;
     if (wanted == 0) return 0;

@@ -110,7 +110,7 @@ TEST(ReceiverMask, WithoutReceiversCoversNothing) {
     }
 }
 
-/// Boxes with insides, all of which cast and receive.
+/// Returns boxes with insides that cast and receive.
 SceneSnapshot houses(RandomScene& random) {
     SceneSnapshot scene = random.scene(LightKind::directional, 0);
     ConsumerItem& camera = scene.consumers[0];
