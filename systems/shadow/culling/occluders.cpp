@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <utility>
 
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
@@ -62,6 +61,17 @@ bool hides(const Occluder& occluder, const glm::dvec3& point_ws_m) {
     return enters <= leaves;
 }
 
+bool is_larger(const Occluder& a, const Occluder& b) {
+    return a.size_rad != b.size_rad ? a.size_rad > b.size_rad : a.instance < b.instance;
+}
+
+/// Puts an occluder in its place among the largest ones.
+void put(const Occluder& found, std::vector<Occluder>& largest) {
+    if (largest.size() == kMostOccluders && !is_larger(found, largest.back())) return;
+    if (largest.size() == kMostOccluders) largest.pop_back();
+    largest.insert(std::upper_bound(largest.begin(), largest.end(), found, is_larger), found);
+}
+
 }  // namespace
 
 void find_occluders(const SceneSnapshot& scene, const ConsumerItem& camera, std::vector<Occluder>& occluders) {
@@ -70,25 +80,21 @@ void find_occluders(const SceneSnapshot& scene, const ConsumerItem& camera, std:
     const math::Frustum frustum = consumer_frustum(camera);
     const glm::dvec3& eye = camera.position_ws_m;
     const double near_m = near_reach_m(camera);
-    std::vector<std::pair<double, std::uint32_t>> found;
     const auto classify = [&](const math::Aabb& box) {
         const bool counts = size_rad(box, eye) >= kLeastOccluder_rad && math::may_overlap(frustum, box);
         return counts ? math::Overlap::partial : math::Overlap::outside;
     };
     visit_instances(scene, classify, [&](std::uint32_t i) {
         const InstanceItem& item = scene.instances[i];
-        if (math::is_empty(inner_box_of(scene.meshes, item.mesh)) || !shows_surface(item) || item.drawable.by_depth)
-            return;
-        const double looks = size_rad(item.bounds_ws, eye);
-        if (looks >= kLeastOccluder_rad && math::distance(item.bounds_ws, eye) > near_m) found.emplace_back(-looks, i);
+        const math::Aabb inner_ms = inner_box_of(scene.meshes, item.mesh);
+        if (math::is_empty(inner_ms) || !shows_surface(item) || item.drawable.by_depth) return;
+        const double looks_rad = size_rad(item.bounds_ws, eye);
+        if (looks_rad < kLeastOccluder_rad || !(math::distance(item.bounds_ws, eye) > near_m)) return;
+        Occluder found = occluder_of(item, inner_ms, camera);
+        found.instance = i;
+        found.size_rad = looks_rad;
+        if (!math::is_empty(found.box_ms)) put(found, occluders);
     });
-    std::sort(found.begin(), found.end());
-    for (const auto& [looks, i] : found) {
-        if (occluders.size() == kMostOccluders) return;
-        const InstanceItem& item = scene.instances[i];
-        const Occluder occluder = occluder_of(item, inner_box_of(scene.meshes, item.mesh), camera);
-        if (!math::is_empty(occluder.box_ms)) occluders.push_back(occluder);
-    }
 }
 
 bool are_hidden(std::span<const Occluder> occluders, std::span<const glm::dvec3> points_ws_m) {
