@@ -44,6 +44,7 @@ protected:
         });
     }
     ecs::Entity lamp, sun;
+    int angle = 0;
 };
 
 TEST_F(HousesOfFrames, HideALampWithItsMapAndItsPass) {
@@ -85,6 +86,24 @@ TEST_F(HousesOfFrames, ShortenTheListOfASunFromTheSecondFrameOnInWhichItTurns) {
     EXPECT_EQ(triangles[4], all) << "it stopped";
     EXPECT_EQ(triangles[5], all);
     EXPECT_EQ(triangles[6], triangles[2]) << "it goes on";
+}
+
+TEST_F(HousesOfFrames, LeaveASunItsListThatLooksFartherAroundReceivers) {
+    const auto listed = [&](const auto& change) {
+        world.registry.patch<LightShadow>(sun, [&](LightShadow& s) { change(s); });
+        std::uint64_t most = 0;
+        for (int i = 0; i < 4; ++i) {
+            turn(++angle);
+            step();
+            most = light("sun").counts.triangles;
+        }
+        return most;
+    };
+    const std::uint64_t few = listed([](LightShadow& s) { s.filter = ShadowFilter::triangles; });
+    EXPECT_GT(listed([](LightShadow& s) { s.antialias = true; }), few);
+    EXPECT_EQ(listed([](LightShadow& s) { s.antialias = false; }), few);
+    world.registry.patch<Light>(sun, [](Light& l) { l.sun_radius_rad = 0.01f; });
+    EXPECT_GT(listed([](LightShadow& s) { s.filter = ShadowFilter::pcss; }), few);
 }
 
 TEST_F(HousesOfFrames, DrawASunAgainWithAllWhenItStopsAndTheCameraWalks) {

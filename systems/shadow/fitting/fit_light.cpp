@@ -305,8 +305,10 @@ Reason LightFit::select_casters(bool turns) {
     ShadowRequest& request = out_.lights[index_].request;
     const bool samples = light_facts(light_.kind).parallel && light_.tuning.cascades.splits == CascadeSplits::sampled;
     if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
+    // A source with a size, and a pixel's area, may be looked up farther from a receiver than a view's casters reach.
+    const bool reads_near = !needs_distances(request.map.filtering) && !light_.shadow.antialias;
     std::optional<std::span<const std::uint32_t>> seen;
-    if (turns && !inputs_.sets.occluders.empty()) {
+    if (turns && reads_near && !inputs_.sets.occluders.empty()) {
         find_seen_receivers(scene_, light_, inputs_.sets, *scratch_.sets.layers, scratch_.sets.seen);
         seen = scratch_.sets.seen;
     }
@@ -316,7 +318,7 @@ Reason LightFit::select_casters(bool turns) {
         if (!request.rays.used && depth_step_m(view, request.map.depth_format) > view.error.texel_m &&
             view.error.texel_m > 0.0 && request.note == Reason::none)
             request.note = Reason::depth_coarse;
-        if (turns && is_parallel(view)) view.stays = false;
+        if (seen && is_parallel(view)) view.stays = false;
         const CasterInputs inputs{out_.sets_of(inputs_.sets, index_), request.map.filtering, inputs_.moving, seen};
         select_view_casters(scene_, inputs, view, scratch_.sets, out_.casters);
         view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;

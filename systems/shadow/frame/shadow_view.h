@@ -77,8 +77,8 @@ struct ShadowView {
     ViewError error;
     std::uint32_t consumer_mask = ~0u;  // consumer_bit() of each camera that sees receivers in it
     std::uint32_t receivers = 0;        // number of visible receivers in it
-    /// Stays while cameras move: its casters are all casters in its map. false, as for a sun that turns in every frame:
-    /// only casters that can darken receivers visible now.
+    /// Stays while cameras move: its casters are all casters in its map. false, as for a sun that turns in every frame
+    /// above houses: only casters that can darken receivers visible now.
     bool stays = false;
     /// Into FittedViews::casters: static casters, then dynamic ones, each by the mesh that is drawn, then by index. The
     /// drawing order matters, because at equal depths the first one drawn stays.
