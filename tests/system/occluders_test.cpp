@@ -83,9 +83,9 @@ TEST_F(HousesOfFrames, ShortenTheListOfASunFromTheSecondFrameOnInWhichItTurns) {
     EXPECT_EQ(triangles[1], all) << "it has turned once";
     EXPECT_LT(triangles[2], all);
     EXPECT_EQ(triangles[3], triangles[2]);
-    EXPECT_EQ(triangles[4], all) << "it stopped";
-    EXPECT_EQ(triangles[5], all);
-    EXPECT_EQ(triangles[6], triangles[2]) << "it goes on";
+    EXPECT_EQ(triangles[4], 0u) << "nothing changed";
+    EXPECT_EQ(triangles[5], triangles[2]) << "it goes on";
+    EXPECT_EQ(triangles[6], triangles[2]);
 }
 
 TEST_F(HousesOfFrames, LeaveASunItsListThatLooksFartherAroundReceivers) {

@@ -127,7 +127,8 @@ struct CountHistory {
 struct TurnHistory {
     glm::dvec3 back_ws{0.0};  // toward the sun at its last fit; 0: there was none
     bool turned = false;      // it was another one at the fit before
-    bool operator==(const TurnHistory&) const = default;
+    /// Returns true: while nothing changes, the maps of a sun that has turned serve as well as those of another one.
+    bool operator==(const TurnHistory&) const { return true; }
 };
 
 /// Light that uses rays.
