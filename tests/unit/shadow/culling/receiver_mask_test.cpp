@@ -53,7 +53,7 @@ InstanceItem box_at(RandomScene& random, const ShadowView& view) {
 TEST(ReceiverMask, CoversWhatLiesOverAReceiverInTheMapAndLittleElse) {
     RandomScene random(print_seed());
     int covered = 0, free = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 240; ++round) {
         const ShadowView view = map_of(random);
         SceneSnapshot scene;
         std::vector<std::uint32_t> receivers;
