@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/math/aabb.h"
@@ -84,10 +84,10 @@ Inside longest_on(std::span<const Triangle> part, int axis, const glm::dvec3& th
             const glm::dvec3 p = t.corners[k] - through, q = t.corners[(k + 1) % 3] - through;
             sides[k] = p[u] * q[v] - p[v] * q[u];
         }
-        const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+        const double least = std::min({sides[0], sides[1], sides[2]}), most = std::max({sides[0], sides[1], sides[2]});
         const double slack = kApart * size * size;
-        if (*least<-slack&& * most> slack) continue;
-        if (*least <= slack && *most >= -slack) return {};  // near an edge
+        if (least < -slack && most > slack) continue;     // beside the triangle
+        if (least <= slack && most >= -slack) return {};  // near an edge
         const double sum = sides[0] + sides[1] + sides[2];
         const auto along = [&](std::size_t k) { return t.corners[k][axis]; };
         crossings.push_back(

@@ -18,9 +18,6 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Pixels around an area that a rasteriser's rounding may reach, and neighbours that antialiased edges read.
-constexpr double kMargin_px = 2.0;
-
 /// Planes of a pyramid with four sides around a cone: every third of those with twelve, and the one behind its apex.
 std::array<math::Plane, 5> pyramid_around(std::span<const math::Plane> cone) {
     static_assert(math::kConeSides == 12);
@@ -88,8 +85,8 @@ gl::Rect on_grid(const SeenBounds& bounds, const gl::Rect& within, const glm::uv
     const glm::dvec2 size(viewport_px), least(within.x, within.y);
     const glm::dvec2 most = least + glm::dvec2(within.width, within.height);
     const auto step = [](const glm::dvec2& px) { return px / kAreaStep_px; };
-    const glm::dvec2 low = glm::floor(step(glm::clamp(bounds.low - kMargin_px, 0.0, 1.0e9))) * kAreaStep_px;
-    const glm::dvec2 high = glm::ceil(step(glm::clamp(bounds.high + kMargin_px, 0.0, 1.0e9))) * kAreaStep_px;
+    const glm::dvec2 low = glm::floor(step(glm::clamp(bounds.low - kRasterMargin_px, 0.0, 1.0e9))) * kAreaStep_px;
+    const glm::dvec2 high = glm::ceil(step(glm::clamp(bounds.high + kRasterMargin_px, 0.0, 1.0e9))) * kAreaStep_px;
     const glm::dvec2 from = glm::max(low, least), to = glm::min(glm::min(high, size), most);
     if (!(from.x < to.x && from.y < to.y)) return {};
     return {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),

@@ -9,12 +9,10 @@
 
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/projection/screen_bounds.h"
 
 namespace gnomon::shadow {
 namespace {
-
-/// Pixels by which an occluder is smaller than its box: a rasteriser's rounding, and neighbours that edges read.
-constexpr double kOccluderMargin_px = 2.0;
 
 /// Returns how large a box looks: its diagonal over its distance. Infinite around the eye.
 double size_rad(const math::Aabb& box, const glm::dvec3& eye_ws_m) {
@@ -35,7 +33,7 @@ Occluder occluder_of(const InstanceItem& item, const math::Aabb& inner_ms, const
     occluder.from_world = glm::inverse(item.basis);
     occluder.eye_ms = occluder.from_world * (camera.position_ws_m - item.translation_ws_m);
     const double margin_m =
-        kOccluderMargin_px * pixel_footprint(camera) * math::farthest_distance(item.bounds_ws, camera.position_ws_m);
+        kRasterMargin_px * pixel_footprint(camera) * math::farthest_distance(item.bounds_ws, camera.position_ws_m);
     const glm::dmat3 rows = glm::transpose(occluder.from_world);
     const glm::dvec3 margin_ms =
         margin_m * glm::dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));

@@ -5,6 +5,9 @@
 /// Screen-space bounds of a light's range.
 namespace gnomon::shadow {
 
+/// Pixels around what is computed that a rasteriser's rounding may reach, and neighbours that antialiased edges read.
+inline constexpr double kRasterMargin_px = 2.0;
+
 /// Returns the pixels that a light can reach in a camera view: the whole viewport for a sun or an unlimited light.
 /// Otherwise the rectangle around a ball that contains the range, or a spot's cone. Empty if the ball is behind the
 /// camera or beyond its far plane. Conservative.
