@@ -15,6 +15,13 @@ namespace {
 /// Rounding of a place along an axis, relative to the largest coordinate: some ten units of a double.
 constexpr double kPlaceRounding = 0x1p-48;
 
+/// Returns the number of cells along a side, a power of two: a receiver of the mean size covers some 64.
+int cells_for(std::size_t receivers) {
+    int cells = ReceiverMask::kFewestCells;
+    while (cells < ReceiverMask::kMostCells && static_cast<std::size_t>(cells) * cells < 64 * receivers) cells *= 2;
+    return cells;
+}
+
 /// Cells from `low` to below `high` along each axis.
 struct CellRange {
     glm::ivec2 low{0}, high{0};
@@ -33,18 +40,18 @@ CellRange cells_of(const ReceiverMask& mask, const math::Aabb& box_ws, const glm
         const double beside_m = glm::dot(half_m, glm::abs(mask.axes[k])) + wider_m[k] + rounding_m;
         const double low = std::floor((at_m - beside_m) * mask.cells_per_m[k]);
         const double high = std::floor((at_m + beside_m) * mask.cells_per_m[k]) + 1.0;
-        constexpr double kMost = ReceiverMask::kCells;
-        range.low[k] = low > 0.0 ? static_cast<int>(std::min(low, kMost)) : 0;
-        range.high[k] = high < kMost ? static_cast<int>(std::max(high, 0.0)) : ReceiverMask::kCells;
+        const double most = mask.cells;
+        range.low[k] = low > 0.0 ? static_cast<int>(std::min(low, most)) : 0;
+        range.high[k] = high < most ? static_cast<int>(std::max(high, 0.0)) : mask.cells;
     }
     return range;
 }
 
 std::uint32_t& sum_at(ReceiverMask& mask, int column, int row) {
-    return mask.sums[static_cast<std::size_t>(row * (ReceiverMask::kCells + 1) + column)];
+    return mask.sums[static_cast<std::size_t>(row * (mask.cells + 1) + column)];
 }
 std::uint32_t sum_at(const ReceiverMask& mask, int column, int row) {
-    return mask.sums[static_cast<std::size_t>(row * (ReceiverMask::kCells + 1) + column)];
+    return mask.sums[static_cast<std::size_t>(row * (mask.cells + 1) + column)];
 }
 
 }  // namespace
@@ -68,9 +75,10 @@ void build_receiver_mask(const SceneSnapshot& scene, std::span<const std::uint32
     mask.origin_ws_m = view.pose.anchor_ws_m;
     mask.axes = {view.pose.axis_u, view.pose.axis_v, view.pose.axis_back};
     mask.low_m = view.plane.centre_ls_m - view.plane.half_extent_m;
-    mask.cells_per_m = static_cast<double>(ReceiverMask::kCells) / (2.0 * view.plane.half_extent_m);
-    constexpr int kSide = ReceiverMask::kCells + 1;
-    mask.sums.assign(static_cast<std::size_t>(kSide * kSide), 0);
+    mask.cells = cells_for(receivers.size());
+    mask.cells_per_m = static_cast<double>(mask.cells) / (2.0 * view.plane.half_extent_m);
+    const int side = mask.cells + 1;
+    mask.sums.assign(static_cast<std::size_t>(side * side), 0);
     // Counts the boxes over each cell: each adds one at two of its corners and takes it away at the others.
     for (const std::uint32_t i : receivers) {
         const CellRange at = cells_of(mask, scene.instances[i].bounds_ws, reach_m);
@@ -81,17 +89,17 @@ void build_receiver_mask(const SceneSnapshot& scene, std::span<const std::uint32
         ++sum_at(mask, at.high.x, at.high.y);
     }
     const auto sum_up = [&](int columns, int rows) {
-        for (int row = rows; row < kSide; ++row)
-            for (int column = columns; column < kSide; ++column)
+        for (int row = rows; row < side; ++row)
+            for (int column = columns; column < side; ++column)
                 sum_at(mask, column, row) += sum_at(mask, column - columns, row - rows);
     };
     sum_up(1, 0);
     sum_up(0, 1);
     // Then the covered cells before each one: those of a row move one place on.
-    for (int row = kSide - 1; row > 0; --row)
-        for (int column = kSide - 1; column > 0; --column)
+    for (int row = side - 1; row > 0; --row)
+        for (int column = side - 1; column > 0; --column)
             sum_at(mask, column, row) = std::min(sum_at(mask, column - 1, row - 1), 1u);
-    for (int k = 0; k < kSide; ++k) sum_at(mask, k, 0) = sum_at(mask, 0, k) = 0;
+    for (int k = 0; k < side; ++k) sum_at(mask, k, 0) = sum_at(mask, 0, k) = 0;
     sum_up(1, 0);
     sum_up(0, 1);
 }

@@ -57,7 +57,7 @@ TEST(ReceiverMask, CoversWhatLiesOverAReceiverInTheMapAndLittleElse) {
         const ShadowView view = map_of(random);
         SceneSnapshot scene;
         std::vector<std::uint32_t> receivers;
-        for (std::uint32_t i = 0; i < 12; ++i) {
+        for (std::uint32_t i = 0; i < (round % 2 == 0 ? 12u : 40u); ++i) {
             scene.instances.push_back(box_at(random, view));
             receivers.push_back(i);
         }
@@ -66,7 +66,7 @@ TEST(ReceiverMask, CoversWhatLiesOverAReceiverInTheMapAndLittleElse) {
         build_receiver_mask(scene, receivers, view, reach_m, mask);
         const Across map{view.plane.centre_ls_m - view.plane.half_extent_m,
                          view.plane.centre_ls_m + view.plane.half_extent_m};
-        const glm::dvec2 cell_m = (map.high - map.low) / static_cast<double>(ReceiverMask::kCells);
+        const glm::dvec2 cell_m = (map.high - map.low) / static_cast<double>(mask.cells);
         for (int k = 0; k < 200; ++k) {
             const math::Aabb caster = box_at(random, view).bounds_ws;
             const Across at = across(view, caster);
@@ -89,6 +89,26 @@ TEST(ReceiverMask, CoversWhatLiesOverAReceiverInTheMapAndLittleElse) {
     }
     EXPECT_GT(covered, 500);
     EXPECT_GT(free, 2000);
+}
+
+TEST(ReceiverMask, HasAsManyCellsAsItsReceiversNeed) {
+    RandomScene random(print_seed());
+    const ShadowView view = map_of(random);
+    SceneSnapshot scene;
+    scene.instances.resize(2000, box_at(random, view));
+    std::vector<std::uint32_t> receivers;
+    ReceiverMask mask;
+    const auto cells = [&](std::uint32_t count) {
+        receivers.assign(count, 0);
+        build_receiver_mask(scene, receivers, view, glm::dvec2(0.1), mask);
+        EXPECT_EQ(mask.sums.size(), static_cast<std::size_t>((mask.cells + 1) * (mask.cells + 1)));
+        return mask.cells;
+    };
+    EXPECT_EQ(cells(0), ReceiverMask::kFewestCells);
+    EXPECT_EQ(cells(16), 32);
+    EXPECT_EQ(cells(17), 64);
+    EXPECT_EQ(cells(257), 256);
+    EXPECT_EQ(cells(2000), ReceiverMask::kMostCells);
 }
 
 TEST(ReceiverMask, WithoutReceiversCoversNothing) {
