@@ -29,6 +29,17 @@ std::array<Plane, kConeSides + 1> planes_around(const Cone& cone) {
     return planes;
 }
 
+std::array<glm::dvec3, kConeSides> edges_around(const Cone& cone) {
+    const glm::dmat3 basis = basis_from_back(cone.axis);
+    const double aside = std::tan(cone.half_angle_rad) / std::cos(std::numbers::pi / kConeSides);
+    std::array<glm::dvec3, kConeSides> edges;
+    for (std::size_t i = 0; i < kConeSides; ++i) {
+        const double turn_rad = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kConeSides;
+        edges[i] = cone.axis + aside * (basis[0] * std::cos(turn_rad) + basis[1] * std::sin(turn_rad));
+    }
+    return edges;
+}
+
 Overlap overlap_ball(const glm::dvec3& ball_centre, double radius, const Aabb& box) {
     if (is_empty(box)) return Overlap::outside;
     const double slack = rounding(ball_centre, box);

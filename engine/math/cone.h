@@ -21,6 +21,10 @@ inline constexpr std::size_t kConeSides = 12;
 /// the cone. The planes are the same for every box, so that results are consistent for BoundsTree::visit.
 std::array<Plane, kConeSides + 1> planes_around(const Cone& cone);
 
+/// Returns directions along the edges between those planes. Their sums with positive weights hold the cone, which is
+/// narrower than pi / 2.
+std::array<glm::dvec3, kConeSides> edges_around(const Cone& cone);
+
 /// Classifies a box against a ball. `outside` only if no point of the box lies in the ball, `inside` only if all do, up
 /// to rounding. A ball with infinite radius contains everything.
 Overlap overlap_ball(const glm::dvec3& centre, double radius, const Aabb& box);

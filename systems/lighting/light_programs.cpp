@@ -91,9 +91,10 @@ std::string_view forward_file(ShaderPass output) {
 
 LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
-    for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_,
-                           unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_,
-                           tonemap_transparent_, catcher_base_, catcher_shares_, fog_base_})
+    for (const Entry& e : imports_) device_.destroy(e.program);
+    for (const Entry& e :
+         {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_, unlit_surface_places_,
+          unlit_blended_, mark_edges_, tonemap_transparent_, catcher_base_, catcher_shares_, fog_base_})
         device_.destroy(e.program);
 }
 
@@ -230,10 +231,11 @@ gl::ProgramHandle LightPrograms::unlit_blended() {
         make_of_meshes(unlit_blended_, "unlit blended", "lighting/lights/blended.frag", {"UNLIT 1"});
     return unlit_blended_.program;
 }
-gl::ProgramHandle LightPrograms::import_surfaces(bool multisampled) {
-    const std::string define = multisampled ? "MULTISAMPLED 1" : "MULTISAMPLED 0";
-    return needed(multisampled ? import_samples_ : import_surfaces_, "imported surfaces", "common/fullscreen.vert",
-                  "lighting/mask/import_surfaces.frag", {&define, 1});
+gl::ProgramHandle LightPrograms::import_surfaces(bool multisampled, bool has_normals) {
+    const std::string defines[] = {std::string("MULTISAMPLED ") + (multisampled ? "1" : "0"),
+                                   std::string("HAS_NORMALS ") + (has_normals ? "1" : "0")};
+    return needed(imports_[(multisampled ? 1 : 0) + (has_normals ? 2 : 0)], "imported surfaces",
+                  "common/fullscreen.vert", "lighting/mask/import_surfaces.frag", defines);
 }
 gl::ProgramHandle LightPrograms::mark_edges() {
     if (is_due(mark_edges_))

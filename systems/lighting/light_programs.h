@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -91,7 +92,7 @@ public:
     gl::ProgramHandle unlit_surface(bool places);
     gl::ProgramHandle unlit_blended();
     /// Returns the program that writes another renderer's surfaces as light passes read them.
-    gl::ProgramHandle import_surfaces(bool multisampled);
+    gl::ProgramHandle import_surfaces(bool multisampled, bool has_normals);
     /// Returns the program that marks pixels for EdgePass; {0} if it cannot be made.
     gl::ProgramHandle mark_edges();
     /// Returns the programs for shadow catchers: ambient light on the nearest ones, and their shares over the picture;
@@ -132,7 +133,8 @@ private:
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
     Entry tonemap_transparent_, catcher_base_, catcher_shares_, fog_base_;
-    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_, mark_edges_;
+    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, mark_edges_;
+    std::array<Entry, 4> imports_;  // bit 0: with samples, bit 1: with normals
     bool some_unlit_ = false;
     bool coloured_ = false;
     std::uint64_t frame_ = 0;

@@ -1,8 +1,6 @@
 #include "systems/lighting/mask_pass.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
 
 #include "engine/core/zone.h"
 #include "shaders/bindings.h"
@@ -12,52 +10,9 @@
 namespace gnomon::lighting {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-24;
-
-/// Roundings between an imported depth and its distance, in units of 2^-24 of what is added. They are the rasteriser's
-/// interpolation, the format, the offset as a float, the sum and the quotient.
-constexpr double kImportRoundings = 5.0;
-
-/// Errors of imported distances, as CameraRecord::lens.zw: per metre and per square metre (perspective), or metres
-/// (orthographic).
-glm::dvec2 import_errors(const PictureLens& lens, const DepthRounding& rounding) {
-    const double scale = std::abs(lens.scale);
-    const double rounded = kImportRoundings * kUnitRoundoff;
-    if (lens.orthographic) return {scale * (rounding.step + rounded) + rounded * std::abs(lens.offset), 0.0};
-    // d(distance) = distance^2 / scale * d(depth); a depth is scale / distance - offset.
-    return {rounded, (rounding.step + 2.0 * rounded * std::abs(lens.offset)) / scale};
-}
-
 std::size_t sample_count(const DepthPicture& picture) { return std::max<std::size_t>(picture.samples.size(), 1); }
 
 }  // namespace
-
-shadow::CameraRecord with_lens(const shadow::CameraRecord& camera, const DepthPicture& picture) {
-    const PictureLens& lens = picture.lens;
-    shadow::CameraRecord record = camera;
-    record.right.w = static_cast<float>(lens.half.x);
-    record.up.w = static_cast<float>(lens.half.y);
-    record.unproject.z = static_cast<float>(picture.size_px.x);
-    record.unproject.w = static_cast<float>(picture.size_px.y);
-    record.lens = glm::vec4(glm::vec2(lens.shift), glm::vec2(import_errors(lens, picture.rounding)));
-    return record;
-}
-
-gl::Rect in_picture(const gl::Rect& area, const ConsumerItem& consumer, const DepthPicture& picture) {
-    const double half_y = consumer.projection == CameraProjection::orthographic ? consumer.half_height_m
-                                                                                : std::tan(0.5 * consumer.fov_y_rad);
-    const glm::dvec2 half(half_y * aspect(consumer), half_y), size(picture.size_px);
-    const auto pixels = [&](const glm::dvec2& of_consumer) {
-        const glm::dvec2 place = (of_consumer / glm::dvec2(consumer.viewport_px) * 2.0 - 1.0) * half;
-        return (place / picture.lens.half - picture.lens.shift + 1.0) * 0.5 * size;
-    };
-    const glm::dvec2 low(area.x, area.y), high = low + glm::dvec2(area.width, area.height);
-    const glm::dvec2 from = glm::clamp(glm::floor(pixels(low)), glm::dvec2(0.0), size);
-    const glm::dvec2 to = glm::clamp(glm::ceil(pixels(high)), glm::dvec2(0.0), size);
-    if (!(from.x < to.x && from.y < to.y)) return {};
-    return {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),
-            static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
-}
 
 gl::Failure MaskPass::make_surfaces(glm::uvec2 size) {
     if (surfaces_ && size == size_px_) return gl::Failure::none;
@@ -73,8 +28,13 @@ gl::Failure MaskPass::make_surfaces(glm::uvec2 size) {
     make(normals_, "imported normals", gl::Format::rgba16_snorm);
     make(material_, "imported material", gl::Format::rgba8);
     if (failure == gl::Failure::none) {
-        const auto made = device_.create_target({"imported surfaces", {{normals_, -1}, {material_, -1}}, {depth_, -1}});
+        const auto made = device_.create_target({"imported surfaces", {{normals_, -1}}, {depth_, -1}});
         surfaces_ = made.handle;
+        failure = made.failure;
+    }
+    if (failure == gl::Failure::none) {
+        const auto made = device_.create_target({"imported material", {{material_, -1}}, {}});
+        same_material_ = made.handle;
         failure = made.failure;
     }
     if (failure != gl::Failure::none) release();
@@ -133,7 +93,7 @@ gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, s
     sample_stride_ = import_offset_ + aligned(sizeof(ImportRecord), alignment);
     lights_offset_ = sample_stride_ * static_cast<std::uint32_t>(samples);
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
-    if (!programs_.import_surfaces(!picture.samples.empty())) return programs_.failure();
+    if (!import_program(picture)) return programs_.failure();
     kept_offset_ = lights_offset_ + light_stride_ * static_cast<std::uint32_t>(std::max<std::size_t>(lights, 1));
     const bool room = uniforms_.reserve(kept_offset_ + aligned(sizeof(KeptRecord), alignment));
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
@@ -146,8 +106,7 @@ void MaskPass::upload(const MaskInputs& in, gl::CommandList& list) {
     const PictureLens& lens = picture.lens;
     ImportRecord record;
     record.depth = {static_cast<float>(lens.scale), static_cast<float>(lens.offset), lens.reversed ? 0.0f : 1.0f, 0.0f};
-    record.normals = {static_cast<int>(picture.normals ? picture.range : NormalRange::none), picture.receive_layers,
-                      picture.view_space ? 1 : 0, 0};
+    record.normals = {static_cast<int>(picture.range), picture.view_space ? 1 : 0, 0, 0};
     bytes_.clear();
     for (std::uint32_t sample = 0; sample < sample_count(picture); ++sample) {
         shadow::CameraRecord there = camera;
@@ -156,7 +115,7 @@ void MaskPass::upload(const MaskInputs& in, gl::CommandList& list) {
             there.lens.x = static_cast<float>(shift.x);
             there.lens.y = static_cast<float>(shift.y);
         }
-        record.normals.w = static_cast<int>(sample);
+        record.normals.z = static_cast<int>(sample);
         put_record(bytes_, sample * sample_stride_, there);
         put_record(bytes_, sample * sample_stride_ + import_offset_, record);
     }
@@ -171,26 +130,6 @@ void MaskPass::upload(const MaskInputs& in, gl::CommandList& list) {
 void MaskPass::bind_camera(std::uint32_t sample, gl::CommandList& list) const {
     list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), sample * sample_stride_,
                               sizeof(shadow::CameraRecord)});
-}
-
-/// Records the surfaces of one sample, as light passes read them.
-void MaskPass::import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const {
-    const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
-    list.add(gl::BeginGroup{"imported surfaces"});
-    list.add(gl::BeginTimer{kSurfaceTimer});
-    list.add(gl::BeginPass{surfaces_, all, true, 0.0f, true, {}});
-    list.add(gl::SetPipeline{{programs_.import_surfaces(!picture.samples.empty()), gl::CullMode::none, false,
-                              gl::DepthTest::greater, true, false, gl::Blend::off}});
-    bind_camera(sample, list);
-    list.add(gl::BindUniforms{bindings::kImportBlock, uniforms_.handle(), sample * sample_stride_ + import_offset_,
-                              sizeof(ImportRecord)});
-    list.add(gl::BindTexture{bindings::kImportedDepthUnit, picture.depth, sampler_});
-    list.add(
-        gl::BindTexture{bindings::kImportedNormalUnit, picture.normals ? picture.normals : picture.depth, sampler_});
-    list.add(gl::DrawTriangle{});
-    list.add(gl::EndPass{});
-    list.add(gl::EndTimer{kSurfaceTimer});
-    list.add(gl::EndGroup{});
 }
 
 /// Records a layer's light over the surfaces that were imported last. If some pixels are slow there are two draws. The
@@ -315,8 +254,10 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
                    size_px_);
     upload(in, list);
     list.add(gl::BeginGroup{"shadow mask"});
+    import_material(in.picture, list);
+    const gl::Rect reached = reached_pixels(in);
     for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {
-        import(in.picture, sample, list);
+        import(in.picture, reached, sample, list);
         record_layers(in, sample, list);
         if (tints_) record_tints(in, sample, list);
     }
@@ -349,8 +290,11 @@ void MaskPass::release_layers() {
 
 void MaskPass::release() {
     release_layers();
-    device_.destroy(surfaces_);
-    surfaces_ = {};
+    for (gl::TargetHandle* target : {&surfaces_, &same_material_}) {
+        device_.destroy(*target);
+        *target = {};
+    }
+    imported_layers_ = kNoLayers;
     for (gl::TextureHandle* texture : {&depth_, &normals_, &material_}) {
         device_.destroy(*texture);
         *texture = {};

@@ -41,6 +41,9 @@ struct MaskInputs {
     std::uint32_t noise_round = 0;  // shadow::in_round()
 };
 
+/// Returns the pixels of the picture that the lights of the layers reach, and their neighbours, in one rectangle.
+gl::Rect reached_pixels(const MaskInputs& in);
+
 /// Visibility of lights over another renderer's picture: a texture with a layer per light and sample, 8 bits each. One
 /// object per view. Owns its device objects; programs are shared.
 class MaskPass {
@@ -73,7 +76,9 @@ private:
     void provide_undecided(bool wanted);
     void upload(const MaskInputs& in, gl::CommandList& list);
     void bind_camera(std::uint32_t sample, gl::CommandList& list) const;
-    void import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const;
+    void import_material(const DepthPicture& picture, gl::CommandList& list);
+    gl::ProgramHandle import_program(const DepthPicture& picture) const;
+    void import(const DepthPicture& picture, const gl::Rect& area, std::uint32_t sample, gl::CommandList& list) const;
     LightProgram program_of(const shadow::LightingLight& light);
     void record_light(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample, const LightProgram& program,
                       const gl::Rect& area, gl::CommandList& list) const;
@@ -95,7 +100,9 @@ private:
     EdgePass edges_;
     GrowingBuffer uniforms_;
     gl::TextureHandle depth_{}, normals_{}, material_{}, mask_{};
-    gl::TargetHandle surfaces_{};
+    gl::TargetHandle surfaces_{}, same_material_{};
+    static constexpr int kNoLayers = -1;
+    int imported_layers_ = kNoLayers;                  // what material_ holds
     std::vector<gl::TargetHandle> targets_;            // one per layer of the mask, with depth_
     gl::TextureHandle undecided_{};                    // depth of the pixels that a light's first draw has left
     std::vector<gl::TargetHandle> undecided_targets_;  // one per layer, with undecided_; none: each light is one draw

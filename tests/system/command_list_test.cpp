@@ -122,7 +122,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BeginGroup{"lamp"},
         BeginTimer{1},
         BeginPass{target("light sum"), picture, false, 0.0f, false, {}},
-        SetScissor{picture},
+        SetScissor{{0, 0, 56, 32}},  // the cone leaves some columns out
         screen("light LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl", Blend::add, DepthTest::less),
         BindUniforms{0, uniforms, 0, 176},
         BindTexture{0, depth, point},

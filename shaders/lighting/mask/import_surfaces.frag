@@ -1,5 +1,5 @@
 // Surfaces of another renderer's picture as light passes read them, from its depth buffer and, where it has them, its
-// normals. MULTISAMPLED: both have samples; one of them is read.
+// normals (HAS_NORMALS). MULTISAMPLED: both have samples; one of them is read.
 #include "common/bindings.glsl"
 #include "common/octahedral.glsl"
 #include "common/pixel_ray.glsl"
@@ -15,11 +15,9 @@ layout(binding = kImportedNormalUnit) uniform sampler2D imported_normals;
 // C++ twin: ImportRecord in systems/lighting/mask_pass.h.
 layout(std140, binding = kImportBlock) uniform ImportBlock {
     vec4 depth;      // x, y: see imported_distance(); z: depth where there is no surface
-    ivec4 normals;   // x: 0: none; 1: components of [-1, 1]; 2: of [0, 1]. y: layers of the shadows that fall on the surfaces.
-                     // z: 1: along the camera's axes, 0: the world's. w: sample
+    ivec4 normals;   // x: 1: components of [-1, 1]; 2: of [0, 1]. y: 1: along the camera's axes, 0: the world's. z: sample
 } imported;
 layout(location = 0) out vec4 normals_out;
-layout(location = 1) out vec4 material_out;
 
 // Returns the distance along the view of a depth, metres.
 float imported_distance(float depth) {
@@ -35,7 +33,7 @@ float reversed_depth(float distance_m) {
 // Returns what texelFetch() takes beside the pixel: the sample, or the level.
 #if MULTISAMPLED
 ivec2 picture_size() { return textureSize(imported_depth); }
-int fetched() { return imported.normals.w; }
+int fetched() { return imported.normals.z; }
 #else
 ivec2 picture_size() { return textureSize(imported_depth, 0); }
 int fetched() { return 0; }
@@ -45,6 +43,14 @@ float depth_at(ivec2 pixel) {
     return texelFetch(imported_depth, clamp(pixel, ivec2(0), picture_size() - 1), fetched()).r;
 }
 
+#if HAS_NORMALS
+vec3 normal_at(ivec2 pixel, float depth) {
+    vec3 normal = texelFetch(imported_normals, pixel, fetched()).xyz;
+    if (imported.normals.x == 2) normal = 2.0 * normal - 1.0;
+    if (imported.normals.y == 0) return normal;
+    return camera.right.xyz * normal.x + camera.up.xyz * normal.y + camera.back.xyz * normal.z;
+}
+#else
 vec3 position_at(ivec2 pixel, float depth) { return position_seen_at(pixel, imported_distance(depth)); }
 
 // Returns the difference of positions along one axis of the picture. Depth is linear over the pixels of a plane: the
@@ -62,20 +68,19 @@ vec3 tangent(ivec2 pixel, float depth, ivec2 step) {
     return bend_before < bend_after ? here - position_at(pixel - step, before) : position_at(pixel + step, after) - here;
 }
 
+vec3 normal_at(ivec2 pixel, float depth) {
+    return cross(tangent(pixel, depth, ivec2(1, 0)), tangent(pixel, depth, ivec2(0, 1)));
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = depth_at(pixel);
     if (depth == imported.depth.z) discard;
     float distance_m = imported_distance(depth);
     vec3 to_viewer = unit_or(to_camera(position_seen_at(pixel, distance_m)), camera.back.xyz);
-    vec3 normal = imported.normals.x == 0 ? cross(tangent(pixel, depth, ivec2(1, 0)), tangent(pixel, depth, ivec2(0, 1)))
-                                          : texelFetch(imported_normals, pixel, fetched()).xyz;
-    if (imported.normals.x == 2) normal = 2.0 * normal - 1.0;
-    if (imported.normals.x != 0 && imported.normals.z == 1)
-        normal = camera.right.xyz * normal.x + camera.up.xyz * normal.y + camera.back.xyz * normal.z;
-    normal = unit_or(normal, to_viewer);
+    vec3 normal = unit_or(normal_at(pixel, depth), to_viewer);
     vec2 packed_normal = octahedral_from_unit(dot(normal, to_viewer) < 0.0 ? -normal : normal);
     normals_out = vec4(packed_normal, packed_normal);
-    material_out = vec4(0.0, 0.0, float(imported.normals.y) / 255.0, 0.0);
     gl_FragDepth = reversed_depth(distance_m);
 }

@@ -60,6 +60,21 @@ TEST_F(ConeTest, FewBoxesOutsideAreTakenForTouching) {
     RecordProperty("needless", needless);
 }
 
+TEST_F(ConeTest, EdgesLieOnTheirPlanesAndHoldTheCone) {
+    for (int round = 0; round < 1000; ++round) {
+        const Cone cone{glm::dvec3(0.0), glm::normalize(vector(1.0)), number(0.01, 1.4)};
+        const auto planes = planes_around(cone);
+        const auto edges = edges_around(cone);
+        for (std::size_t i = 0; i < kConeSides; ++i) {
+            const double length = glm::length(edges[i]);
+            EXPECT_NEAR(glm::dot(planes[i].normal, edges[i]), 0.0, 1e-12 * length);
+            EXPECT_NEAR(glm::dot(planes[(i + 1) % kConeSides].normal, edges[i]), 0.0, 1e-12 * length);
+            EXPECT_FALSE(contains(cone, edges[i]));
+            for (const Plane& plane : planes) EXPECT_GT(glm::dot(plane.normal, edges[i]), -1e-12 * length);
+        }
+    }
+}
+
 TEST_F(ConeTest, ABallIsToldFromABoxToo) {
     for (int round = 0; round < 5000; ++round) {
         const glm::dvec3 centre = vector(5.0);

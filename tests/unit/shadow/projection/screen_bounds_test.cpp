@@ -32,6 +32,24 @@ protected:
         c.viewport_px = {static_cast<std::uint32_t>(number(1, 2000)), static_cast<std::uint32_t>(number(1, 2000))};
         return c;
     }
+    /// Returns whether a ray meets a spot's cone: tried at the roots of its quadric, between and beyond them.
+    static bool meets_cone(const LightItem& light, const glm::dvec3& start, const glm::dvec3& way) {
+        const glm::dvec3 axis = -light.rotation_ws[2];
+        const double k = std::pow(std::cos(light.outer_cone_rad), 2.0);
+        const double s = glm::dot(start, axis), w = glm::dot(way, axis);
+        const double a = w * w - k * glm::dot(way, way), b = s * w - k * glm::dot(start, way),
+                     c = s * s - k * glm::dot(start, start);
+        const auto is_inside = [&](double t) {
+            const glm::dvec3 p = start + t * way;
+            return t >= 0.0 && glm::dot(p, axis) > std::cos(light.outer_cone_rad) * glm::length(p);
+        };
+        const double root = std::sqrt(std::max(0.0, b * b - a * c));
+        const double t0 = (-b - root) / a, t1 = (-b + root) / a;
+        for (const double t : {0.0, 0.5 * (t0 + t1), std::min(t0, t1) - 1e-3, std::max(t0, t1) + 1e-3,
+                               std::max(t0, t1) + 1.0, 1e7, 0.5 * std::max(t0, t1), 0.5 * std::min(t0, t1)})
+            if (is_inside(t)) return true;
+        return false;
+    }
     std::mt19937_64 random{print_seed()};
 };
 
@@ -70,6 +88,49 @@ TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRangeAndOfTheCone) {
     }
     EXPECT_GT(visible, 1000) << "the test must see something";
     EXPECT_GT(partial, 50) << "and not only whole pictures";
+}
+
+TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfAnUnlimitedConeAndIsTightAroundThem) {
+    int visible = 0, partial = 0, none = 0, tight = 0, checked = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const ConsumerItem c = camera(round % 2 == 1);
+        LightItem light;
+        light.kind = LightKind::spot;
+        light.position_ws_m = c.position_ws_m + number(0.0, 30.0) * direction();
+        light.rotation_ws = math::basis_from_back(direction());
+        light.outer_cone_rad = number(0.05, 1.57);
+        const gl::Rect rect = screen_rectangle(light, c);
+        const bool flat = c.projection == CameraProjection::orthographic;
+        const glm::dvec2 half = (flat ? c.half_height_m : std::tan(0.5 * c.fov_y_rad)) * glm::dvec2(aspect(c), 1.0);
+        const glm::dvec2 size(c.viewport_px);
+        partial += rect.width > 0 && rect.width * rect.height < static_cast<int>(0.8 * size.x * size.y) ? 1 : 0;
+        none += rect.width == 0 ? 1 : 0;
+        glm::dvec2 low(1e9), high(-1e9);
+        // Places of the picture, each at all distances.
+        for (int i = 0; i < 400; ++i) {
+            const glm::dvec2 at = i < 4 ? glm::dvec2(i % 2, i / 2) : glm::dvec2(number(0, 1), number(0, 1));
+            const glm::dvec2 aside = (2.0 * at - 1.0) * half;
+            const glm::dvec3 sideways = c.rotation_ws[0] * aside.x + c.rotation_ws[1] * aside.y;
+            const glm::dvec3 start = c.position_ws_m + (flat ? sideways : glm::dvec3(0));
+            const glm::dvec3 way = (flat ? glm::dvec3(0) : sideways) - c.rotation_ws[2];
+            const bool seen = meets_cone(light, start - light.position_ws_m, way);
+            if (!seen) continue;
+            ++visible;
+            const glm::dvec2 px = at * size;
+            low = glm::min(low, px), high = glm::max(high, px);
+            EXPECT_TRUE(px.x >= rect.x && px.y >= rect.y && px.x <= rect.x + rect.width && px.y <= rect.y + rect.height)
+                << px.x << ',' << px.y << " outside " << rect.x << ',' << rect.y << ' ' << rect.width << 'x'
+                << rect.height;
+        }
+        if (!(high.x - low.x > 0.2 * size.x && high.y - low.y > 0.2 * size.y && size.x > 50 && size.y > 50)) continue;
+        if (light.outer_cone_rad > 1.3) continue;
+        ++checked;
+        tight += rect.width * rect.height < 1.5 * (high.x - low.x) * (high.y - low.y) ? 1 : 0;
+    }
+    EXPECT_GT(visible, 100000);
+    EXPECT_GT(partial, 300);
+    EXPECT_GT(none, 300) << "cones that shine away from the view";
+    EXPECT_GT(tight, 0.8 * checked) << "of " << checked;
 }
 
 TEST_F(ScreenRectangle, GoesWithADepthThatLittleBeyondTheRangeHas) {
