@@ -45,6 +45,10 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
         if (!stage.frame().read_visibility(i, light.measured))
             return Error{"visibility of light '" + snapshot.lights[i].name + "' cannot be read", accuracy.scene, "",
                          "bench.visibility"};
+        const LightItem& item = snapshot.lights[i];
+        if (item.shadow.translucent_casters && oracle::has_translucent_casters(snapshot, stage.library(), item) &&
+            !is_left_out(light.report) && !stage.frame().read_tint(i, light.tint.emplace().measured))
+            return Error{"colours of light '" + item.name + "' cannot be read", accuracy.scene, "", "bench.visibility"};
         accuracy.lights.push_back(std::move(light));
         indices.push_back(i);
     }
@@ -122,6 +126,13 @@ void judge_area(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits
     area.metrics = oracle::compare_area(area.truth, accuracy.measured, accuracy.truth.ambiguous);
 }
 
+void judge_tint(Stage& stage, const oracle::PrimaryHits& hits, const LightItem& light, LightAccuracy& accuracy) {
+    if (!accuracy.tint) return;
+    accuracy.tint->truth = oracle::trace_tint(stage.frame().snapshot(), stage.library(),
+                                              stage.frame().snapshot().consumers.front().position_ws_m, hits, light);
+    accuracy.tint->metrics = oracle::compare_tint(hits, accuracy.tint->truth, accuracy.tint->measured);
+}
+
 JudgedErrors judged_errors(const LightAccuracy& light) {
     const oracle::Metrics& m = light.metrics;
     const oracle::FarErrors& far = light.far;
@@ -143,6 +154,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         if (other) accuracy.lights[k].other_surface = leave_out(*other, accuracy.lights[k].truth);
         if (oracle::source_size(light) > 0.0 && !is_left_out(accuracy.lights[k].report))
             judge_source(tracer, hits, light, accuracy.lights[k]);
+        judge_tint(stage, hits, light, accuracy.lights[k]);
         if (options.area_side > 0 && !is_left_out(accuracy.lights[k].report))
             judge_area(tracer, hits, snapshot, indices[k], options.area_side, accuracy.lights[k]);
     }

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "tests/oracle/reference_tracer.h"
 #include "tests/oracle/resolved_edges.h"
 #include "tests/oracle/soft_metrics.h"
+#include "tests/oracle/tint_truth.h"
 
 namespace gnomon::bench {
 
@@ -31,6 +34,13 @@ struct SoftAccuracy {
 struct AreaAccuracy {
     oracle::AreaTruth truth;
     oracle::AreaMetrics metrics;
+};
+
+/// Colours that translucent casters let through, against rays.
+struct TintAccuracy {
+    std::vector<glm::dvec3> truth;
+    std::vector<glm::vec4> measured;
+    oracle::TintMetrics metrics;
 };
 
 /// Against what the light states of its edges.
@@ -54,6 +64,7 @@ struct LightAccuracy {
     std::optional<EdgeAccuracy> edges;  // empty: AccuracyOptions::with_edges is false
     std::optional<SoftAccuracy> soft;   // accuracy about a source with a size; empty: the light has none
     std::optional<AreaAccuracy> area;   // empty: AccuracyOptions::area_side is 0
+    std::optional<TintAccuracy> tint;   // empty: no translucent caster, or the light leaves them out
     Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
     /// Pixels that changed when every view was drawn again; must be 0. Not counted for a mean of noise_rounds.
     std::size_t redrawn_differs = 0;

@@ -38,6 +38,12 @@ Json to_json(const AreaAccuracy& area) {
             {"partial_px", m.partial},  {"partial_error", m.partial_error}};
 }
 
+Json to_json(const TintAccuracy& tint) {
+    const oracle::TintMetrics& m = tint.metrics;
+    return {{"scored_px", m.pixels},      {"tinted_px", m.tinted},          {"beyond_px", m.beyond},
+            {"mean_error", m.mean_error}, {"tinted_error", m.tinted_error}, {"max_error", m.max_error}};
+}
+
 /// Adds the figures that are counted against the truth.
 void add_errors(const LightAccuracy& light, Json& json) {
     const oracle::Metrics& m = light.metrics;
@@ -102,6 +108,7 @@ Json to_json(const LightAccuracy& light) {
     json["redrawn_differs_px"] = light.redrawn_differs;
     json["soft"] = light.soft ? to_json(*light.soft) : Json(nullptr);
     json["area"] = light.area ? to_json(*light.area) : Json(nullptr);
+    json["tint"] = light.tint ? to_json(*light.tint) : Json(nullptr);
     json["gpu_us"] = to_json(light.gpu_us);
     json["cpu_us"] = to_json(light.cpu_us);
     return json;

@@ -87,6 +87,19 @@ void append_area(const Accuracy& accuracy, std::string& text) {
         "crossed pixels that show another surface, too.\n";
 }
 
+void append_tint(const Accuracy& accuracy, std::string& text) {
+    const auto has_tint = [](const LightAccuracy& light) { return light.tint.has_value(); };
+    if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), has_tint)) return;
+    text += formatted("\n%-18s %8s %8s %8s %8s %8s %8s\n", "through glass", "pixels", "tinted", "error%", "tinted%",
+                      "most%", "beyond");
+    for (const LightAccuracy& light : accuracy.lights) {
+        if (!light.tint) continue;
+        const oracle::TintMetrics& m = light.tint->metrics;
+        text += formatted("%-18.18s %8zu %8zu %8.4f %8.4f %8.3f %8zu\n", light.report.name.c_str(), m.pixels, m.tinted,
+                          kPercent * m.mean_error, kPercent * m.tinted_error, kPercent * m.max_error, m.beyond);
+    }
+}
+
 }  // namespace
 
 std::string accuracy_legend() {
@@ -111,7 +124,10 @@ std::string accuracy_legend() {
            "Of lights with a size, against 256 rays to it: source is the radius in metres, or the tangent of a sun's;\n"
            "error the mean difference; leak the mean light where none of it is seen; loss the mean light missing where "
            "all\n"
-           "is; widths the places where a penumbra is measured, ratio drawn by true width.\n";
+           "is; widths the places where a penumbra is measured, ratio drawn by true width.\n"
+           "Through glass, against what translucent casters let through: error the mean difference over all surfaces,\n"
+           "tinted% where the truth is not white, most% the largest of a channel; beyond: pixels off by more than "
+           "1/255.\n";
 }
 
 std::string accuracy_table(const Accuracy& accuracy) {
@@ -130,6 +146,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
     for (const LightAccuracy& light : accuracy.lights) append_resolved(light, text);
     append_soft(accuracy, text);
     append_area(accuracy, text);
+    append_tint(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (light.edges && light.edges->exceptions.beyond() > 0) {
             const oracle::EdgeExceptions& e = light.edges->exceptions;

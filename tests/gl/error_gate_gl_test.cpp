@@ -109,7 +109,10 @@ TEST_F(ErrorGate, NoRowGetsMorePixelsWrongThanWereRecorded) {
     if (!counts_as_recorded()) GTEST_SKIP() << device() << " is not llvmpipe, of which the counts are";
     const ErrorsByRow found = judge(gated_rows());
     const char* const how = "GNOMON_RECORD_ERRORS=1 gl_truth --gtest_filter='ErrorGate.*' records them anew";
-    if (std::getenv("GNOMON_RECORD_ERRORS") != nullptr) test::write_errors(record_file(), {device(), found});
+    if (std::getenv("GNOMON_RECORD_ERRORS") != nullptr)
+        test::write_errors(record_file(), {device(), found},
+                           "How many pixels of each light the rows of a small sweep get wrong\n"
+                           "# (tests/gl/error_gate_gl_test.cpp); none may rise.");
     const test::RecordedErrors before = test::read_errors(record_file());
     for (const std::string& line : test::what_rose(before.rows, found)) ADD_FAILURE() << line;
     if (HasFailure())
@@ -172,7 +175,7 @@ TEST(RecordedErrors, SayWhatRoseWhatFellAndWhatCannotBeCompared) {
 
     const OwnFolder folder;
     const auto file = folder.path() / "errors";
-    test::write_errors(file, {"a device", before});
+    test::write_errors(file, {"a device", before}, "errors");
     const test::RecordedErrors read = test::read_errors(file);
     std::filesystem::remove(file);
     EXPECT_EQ(read.device, "a device");

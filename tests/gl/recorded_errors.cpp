@@ -50,11 +50,9 @@ RecordedErrors read_errors(const std::filesystem::path& file) {
     return errors;
 }
 
-void write_errors(const std::filesystem::path& file, const RecordedErrors& errors) {
+void write_errors(const std::filesystem::path& file, const RecordedErrors& errors, const std::string& about) {
     std::ofstream stream(file);
-    stream << "# How many pixels of each light the rows of a small sweep get wrong (tests/gl/error_gate_gl_test.cpp); "
-              "none\n"
-              "# may rise. Written by GNOMON_RECORD_ERRORS=1 gl_truth --gtest_filter=ErrorGate.*\n"
+    stream << "# " << about << " Written by GNOMON_RECORD_ERRORS=1 gl_truth --gtest_filter=*ErrorGate.*\n"
            << kDeviceKey << errors.device << "\n# scored wrong acne leak light row\n";
     for (const auto& [key, counts] : errors.rows)
         stream << counts.scored << ' ' << counts.wrong << ' ' << counts.acne << ' ' << counts.leak << ' ' << key.first

@@ -25,7 +25,8 @@ struct RecordedErrors {
 
 /// Returns what a file records; nothing if it cannot be read.
 RecordedErrors read_errors(const std::filesystem::path& file);
-void write_errors(const std::filesystem::path& file, const RecordedErrors& errors);
+/// Writes them, below a comment on what they are.
+void write_errors(const std::filesystem::path& file, const RecordedErrors& errors, const std::string& about);
 
 /// Returns a line for each count that is higher than recorded, and for each row that cannot be compared. Such a row is
 /// in one of the two alone, or has another number of scored pixels, since the truth has changed.

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <string>
 
 #include "tests/gl/traced_frame_fixture.h"
@@ -61,20 +60,8 @@ protected:
         const oracle::ReferenceTracer tracer(scene, library, eye.position_ws_m);
         const oracle::PrimaryHits hits = tracer.trace_primary(eye);
         const auto truth = oracle::trace_tint(scene, library, eye.position_ws_m, hits, scene.lights.at(light));
-        const std::vector<glm::vec4> drawn = tint(light);
-        Errors found;
-        for (std::size_t i = 0; i < truth.size(); ++i) {
-            if (hits.triangle[i] == oracle::kNoTriangle) continue;
-            const glm::dvec3 off = glm::abs(glm::dvec3(drawn[i]) - truth[i]) * 255.0;
-            found.mean += (off.x + off.y + off.z) / 3.0;
-            found.most = std::max({found.most, off.x, off.y, off.z});
-            ++found.pixels;
-            found.beyond += std::max({off.x, off.y, off.z}) > 1.0 ? 1 : 0;
-            found.tinted += truth[i] != glm::dvec3(1.0) ? 1 : 0;
-            found.darkest = glm::min(found.darkest, truth[i]);
-        }
-        found.mean /= static_cast<double>(std::max<std::size_t>(found.pixels, 1));
-        return found;
+        const oracle::TintMetrics m = oracle::compare_tint(hits, truth, tint(light));
+        return {255.0 * m.mean_error, 255.0 * m.max_error, m.pixels, m.tinted, m.beyond, m.darkest};
     }
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  // turn of panes that are added
 };

@@ -6,6 +6,7 @@ if(GNOMON_SAMPLE)
     edge_flicker_gl_test.cpp
     error_gate_gl_test.cpp
     left_out_lights_gl_test.cpp
+    mean_error_gate_gl_test.cpp
     resolved_edges_gl_test.cpp
     recorded_errors.cpp
     soft_shadows_gl_test.cpp

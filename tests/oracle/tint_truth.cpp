@@ -1,5 +1,6 @@
 #include "tests/oracle/tint_truth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -45,11 +46,16 @@ glm::dvec4 sampled(const assets::Texture& texture, const glm::dvec2& uv) {
     return glm::mix(row(first.y), row(first.y + 1.0), part.y);
 }
 
+/// Returns whether an instance with a mesh casts shadows of the light.
+bool casts_for(const InstanceItem& item, const assets::MeshLibrary& library, const LightItem& light) {
+    return item.casts && (item.cast_layers & light.shadow.layers) != 0 && item.mesh < library.meshes.size();
+}
+
 std::vector<TintTriangle> tint_triangles(const SceneSnapshot& scene, const assets::MeshLibrary& library,
                                          const glm::dvec3& origin_ws_m, const LightItem& light) {
     std::vector<TintTriangle> triangles;
     for (const InstanceItem& item : scene.instances) {
-        if (!item.casts || (item.cast_layers & light.shadow.layers) == 0 || item.mesh >= library.meshes.size()) continue;
+        if (!casts_for(item, library, light)) continue;
         const assets::Mesh& mesh = library.meshes[item.mesh];
         const std::vector<glm::dvec3> positions = posed_positions(scene, library, item.mesh);
         const glm::dvec3 translation = item.translation_ws_m - origin_ws_m;
@@ -133,6 +139,38 @@ std::vector<glm::dvec3> trace_tint(const SceneSnapshot& scene, const assets::Mes
         }
     }
     return passed;
+}
+
+bool has_translucent_casters(const SceneSnapshot& scene, const assets::MeshLibrary& library, const LightItem& light) {
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const InstanceItem& item) {
+        if (!casts_for(item, library, light)) return false;
+        const std::vector<assets::Submesh>& parts = library.meshes[item.mesh].submeshes;
+        return std::any_of(parts.begin(), parts.end(), [&](const assets::Submesh& part) {
+            return assets::transmits(library.materials[part.material]);
+        });
+    });
+}
+
+TintMetrics compare_tint(const PrimaryHits& hits, std::span<const glm::dvec3> truth,
+                         std::span<const glm::vec4> measured) {
+    constexpr double kStep = 1.0 / 255.0;
+    TintMetrics m;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        if (hits.triangle[i] == kNoTriangle) continue;
+        const glm::dvec3 off = glm::abs(glm::dvec3(measured[i]) - truth[i]);
+        const double mean = (off.x + off.y + off.z) / 3.0, most = std::max({off.x, off.y, off.z});
+        const bool tinted = truth[i] != glm::dvec3(1.0);
+        ++m.pixels;
+        m.tinted += tinted ? 1 : 0;
+        m.beyond += most > kStep ? 1 : 0;
+        m.mean_error += mean;
+        m.tinted_error += tinted ? mean : 0.0;
+        m.max_error = std::max(m.max_error, most);
+        m.darkest = glm::min(m.darkest, truth[i]);
+    }
+    m.mean_error /= static_cast<double>(std::max<std::size_t>(m.pixels, 1));
+    m.tinted_error /= static_cast<double>(std::max<std::size_t>(m.tinted, 1));
+    return m;
 }
 
 }  // namespace gnomon::oracle

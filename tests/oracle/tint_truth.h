@@ -1,5 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "gnomon/assets.h"
@@ -19,5 +22,22 @@ glm::dvec3 surface_transmittance(const assets::MeshLibrary& library, const asset
 /// It tries every triangle, so that it suits small scenes. `origin_ws_m`: the tracer's that found `hits`.
 std::vector<glm::dvec3> trace_tint(const SceneSnapshot& scene, const assets::MeshLibrary& library,
                                    const glm::dvec3& origin_ws_m, const PrimaryHits& hits, const LightItem& light);
+
+/// Returns whether any caster of the light lets light through.
+bool has_translucent_casters(const SceneSnapshot& scene, const assets::MeshLibrary& library, const LightItem& light);
+
+/// How far measured colours are from the truth, over pixels with a surface. Errors are shares of full light.
+struct TintMetrics {
+    std::size_t pixels = 0, tinted = 0;  // tinted: by the truth
+    std::size_t beyond = 0;              // any channel off by more than 1/255
+    double mean_error = 0.0;             // over all pixels and channels
+    double tinted_error = 0.0;           // over tinted pixels and channels; 0 without
+    double max_error = 0.0;              // largest of any channel
+    glm::dvec3 darkest{1.0};             // truth, each channel by itself
+};
+
+/// Compares `measured`, values as Frame::read_tint() has them, of the size of the hits, with the truth.
+TintMetrics compare_tint(const PrimaryHits& hits, std::span<const glm::dvec3> truth,
+                         std::span<const glm::vec4> measured);
 
 }  // namespace gnomon::oracle
