@@ -91,7 +91,8 @@ void EmbedClient::render(const HostCamera& camera) {
                           .size_px = engine_.size_px(),
                           .normal_texture = engine_.normal_texture(),
                           .lights = handles_,
-                          .wants_mask = wants_mask})
+                          .wants_mask = wants_mask,
+                          .shows_only_added = true})
                 .texture;
 }
 

@@ -182,6 +182,9 @@ struct View {
     ShadowLayers cast_layers = kAllShadowLayers, receive_layers = kAllShadowLayers;
     /// False: no mask is drawn and no texture is read, for shaders that look lights up themselves (lookup_glsl()).
     bool wants_mask = true;
+    /// True: the textures show nothing but what add_caster() added. The mask then covers what each light reaches
+    /// of that, not all of its range and cone, and takes less time. Other surfaces may have 0.
+    bool shows_only_added = false;
     /// Number of the frame, for the random taps of poisson_rotated, poisson_stratified, pcss and soft_triangles. Each
     /// of 1024 numbers has its own pattern, so that temporal antialiasing averages them. 0: the same pattern in every
     /// frame. Other filters do not depend on it.

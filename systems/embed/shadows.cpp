@@ -128,6 +128,7 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     }
     state.picture.size_px = view.size_px;
     state.picture.lens = *lens;
+    state.picture.shows_only_added = view.shows_only_added;
     consumers.push_back(consumer);
     consumer_views.push_back(static_cast<std::uint32_t>(index));
     consumer_layers.push_back({view.cast_layers, view.receive_layers});

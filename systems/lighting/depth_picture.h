@@ -37,6 +37,7 @@ struct DepthPicture {
     NormalRange range = NormalRange::none;
     bool view_space = false;  // normals have the camera's axes, not the world's
     std::uint8_t receive_layers = 0xff;
+    bool shows_only_added = false;  // nothing but the snapshot's instances is seen
     /// Places of samples in a pixel, from its middle, pixels. Empty: the textures are not multisampled.
     std::vector<glm::dvec2> samples = {};
 };

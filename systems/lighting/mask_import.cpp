@@ -56,12 +56,20 @@ gl::Rect in_picture(const gl::Rect& area, const ConsumerItem& consumer, const De
             static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
 }
 
+gl::Rect masked_area(const shadow::LitArea& area, const DepthPicture& picture) {
+    return picture.shows_only_added ? area.screen : area.reach;
+}
+
+float masked_depth(const shadow::LitArea& area, const DepthPicture& picture) {
+    return picture.shows_only_added ? area.farthest_depth : area.reach_depth;
+}
+
 gl::Rect reached_pixels(const MaskInputs& in) {
     const ConsumerItem& consumer = in.scene.consumers[in.inputs.consumer];
     glm::dvec2 low(in.picture.size_px), high(0.0);
     for (const std::uint32_t layer : in.layers) {
         if (layer >= in.inputs.lights.size()) continue;
-        const gl::Rect area = in_picture(in.inputs.lights[layer].area.reach, consumer, in.picture);
+        const gl::Rect area = in_picture(masked_area(in.inputs.lights[layer].area, in.picture), consumer, in.picture);
         if (area.width == 0) continue;
         low = glm::min(low, glm::dvec2(area.x, area.y) - kNeighbours_px);
         high = glm::max(high, glm::dvec2(area.x + area.width, area.y + area.height) + kNeighbours_px);

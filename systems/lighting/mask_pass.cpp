@@ -143,7 +143,7 @@ void MaskPass::record_light(const MaskInputs& in, std::uint32_t layer, std::uint
             {used, gl::CullMode::none, false, gl::DepthTest::less, takes_depth, false, gl::Blend::off}});
         bind_inputs(in, layer, sample, program, list);
         if (program.edges) bind_shares(list);
-        list.add(gl::DrawTriangle{in.inputs.lights[light].area.reach_depth});
+        list.add(gl::DrawTriangle{masked_depth(in.inputs.lights[light].area, in.picture)});
     };
     if (program.edges) return draw(program.edges.reads, false);
     if (program.decided_program) draw(program.decided_program, true);
@@ -160,7 +160,8 @@ void MaskPass::bind_shares(gl::CommandList& list) const {
 void MaskPass::record_edges(const MaskInputs& in, std::uint32_t layer, std::uint32_t sample,
                             const LightProgram& program, const gl::Rect& area, gl::CommandList& list) const {
     const auto bind = [&] { bind_inputs(in, layer, sample, program, list); };
-    edges_.record(program, {depth_, area, in.inputs.lights[in.layers[layer]].area.reach_depth}, sampler_, bind, list);
+    const float depth = masked_depth(in.inputs.lights[in.layers[layer]].area, in.picture);
+    edges_.record(program, {depth_, area, depth}, sampler_, bind, list);
 }
 
 /// Binds what a light's programs read: surfaces, its maps, or its visibility as EdgePass has found it.
@@ -210,7 +211,8 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
         if (is_light) {
             const shadow::LightingLight& light = in.inputs.lights[in.layers[layer]];
             used = program_of(light);
-            if (light.area.reach.width > 0 && used.program) area = in_picture(light.area.reach, consumer, in.picture);
+            const gl::Rect masked = masked_area(light.area, in.picture);
+            if (masked.width > 0 && used.program) area = in_picture(masked, consumer, in.picture);
         }
         if (area.width > 0 && used.edges) record_edges(in, layer, sample, used, area, list);
         const bool two = area.width > 0 && used.decided_program && !used.edges;

@@ -41,6 +41,11 @@ struct MaskInputs {
     std::uint32_t noise_round = 0;  // shadow::in_round()
 };
 
+/// Returns the part of the picture that may show the light, in pixels of the view that shadows are fitted to.
+gl::Rect masked_area(const shadow::LitArea& area, const DepthPicture& picture);
+/// Returns a lower bound on the depths there.
+float masked_depth(const shadow::LitArea& area, const DepthPicture& picture);
+
 /// Returns the pixels of the picture that the lights of the layers reach, and their neighbours, in one rectangle.
 gl::Rect reached_pixels(const MaskInputs& in);
 

@@ -81,6 +81,34 @@ TEST_F(EmbedTest, SurfacesBehindWhatIsDeclaredAreLit) {
     constexpr std::size_t kTop = std::size_t{kWidth_px} * 20;
     EXPECT_EQ(std::count(mask.end() - kTop, mask.end(), 255), static_cast<std::ptrdiff_t>(kTop));
     EXPECT_GT(std::count(mask.begin(), mask.end(), 0), 100) << "control: the box throws a shadow";
+    // Without such walls, as the engine then states, it gets no light, and all else what it had.
+    view.shows_only_added = true;
+    const std::vector<std::uint8_t> of_added = masked();
+    EXPECT_EQ(std::count(of_added.end() - kTop, of_added.end(), 0), static_cast<std::ptrdiff_t>(kTop));
+    std::size_t lit = 0, other = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        lit += of_added[i] > 0 ? 1 : 0;
+        other += of_added[i] > 0 && of_added[i] != mask[i] ? 1 : 0;
+    }
+    EXPECT_GT(lit, 1000u) << "of the card and the box";
+    EXPECT_EQ(other, 0u);
+}
+
+TEST_P(EmbedMask, IsTheSameWhereAllThatIsSeenWasAdded) {
+    const auto [kind, depths] = GetParam();
+    make_engine(depths);
+    add_room();
+    view.normal_texture = engine->normals;
+    for (const glm::dvec3& from : {glm::dvec3(0.5, 2.5, 4.0), glm::dvec3(-3.0, 0.4, 1.0), glm::dvec3(0.1, 6.0, 0.2)})
+        for (const bool antialias : {false, true}) {
+            look_from(from);
+            const LightId light = add_shadowed(kind, {1.5, 3.0, 1.0}, {.antialias = antialias});
+            view.shows_only_added = false;
+            const std::vector<std::uint8_t> all = masked();
+            view.shows_only_added = true;
+            EXPECT_EQ(masked(), all) << from.x << (antialias ? " antialiased" : "");
+            shadows->remove(light);
+        }
 }
 
 TEST_P(EmbedMask, NeedsNoNormals) {
