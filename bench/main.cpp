@@ -92,6 +92,7 @@ int run_sweeps(const Arguments& arguments) {
     if (!arguments.size_given && command.size == SweepSize::quick) command.stage.size_px = kQuickSize_px;
     if (arguments.rounds_given) command.rounds = arguments.rounds;
     if (arguments.repeat_given) command.frames = arguments.repeat;
+    command.area_side = arguments.area_side;
     if (auto error = run_sweep(command)) return fail(*error);
     std::printf("%s: bench/sweep/report.py makes the page and the tables of it\n",
                 (command.folder / "report.json").c_str());

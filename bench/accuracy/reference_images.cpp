@@ -21,8 +21,8 @@ std::vector<std::uint32_t> TracedTruths::indices() const {
     return all;
 }
 
-Result<TracedTruths> trace_truths(Stage& stage, bool disks) {
-    if (disks)
+Result<TracedTruths> trace_truths(Stage& stage, const TruthOptions& options) {
+    if (options.disks)
         if (auto error = stage.start_over(disk_source())) return *error;
     stage.run_frame();
     const SceneSnapshot& scene = stage.frame().snapshot();
@@ -43,7 +43,10 @@ Result<TracedTruths> trace_truths(Stage& stage, bool disks) {
         traced.kind = light.kind;
         traced.point = truths.tracer->trace_light(truths.hits, light, true);
         if (other) traced.other_surface = leave_out(*other, traced.point);
-        if (disks) traced.disk = truths.tracer->trace_source(truths.hits, light, {});
+        if (options.disks) traced.disk = truths.tracer->trace_source(truths.hits, light, {});
+        if (options.area_side > 0)
+            traced.area =
+                truths.tracer->trace_area(camera, truths.hits, traced.point, light, {.side = options.area_side});
     }
     truths.trace_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return truths;

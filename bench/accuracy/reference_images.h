@@ -5,6 +5,7 @@
 
 #include "bench/common/stage.h"
 #include "gnomon/result.h"
+#include "tests/oracle/area_truth.h"
 #include "tests/oracle/reference_tracer.h"
 #include "tests/oracle/soft_truth.h"
 
@@ -17,6 +18,7 @@ struct TracedLight {
     oracle::LightTruth point;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
     oracle::SoftTruth disk;                    // truth about disk_source(); empty: not computed
+    oracle::AreaTruth area;                    // lit share of pixels' areas, of a point; empty: not computed
 };
 
 /// Returns whether a pixel is scored, and `measured` is on the other side of half lit than the truth. Below 0 or NaN:
@@ -33,7 +35,12 @@ struct TracedTruths {
     std::vector<std::uint32_t> indices() const;  // indices of the lights
 };
 
-/// Leaves the lights with disk_source() if `disks`. Errors: "bench.camera", "set.*".
-Result<TracedTruths> trace_truths(Stage& stage, bool disks);
+struct TruthOptions {
+    bool disks = false;           // sources with a size as well; leaves the lights with disk_source()
+    std::uint32_t area_side = 0;  // oracle::AreaSampling::side; 0: no areas
+};
+
+/// Traces a still scene. Errors: "bench.camera", "set.*".
+Result<TracedTruths> trace_truths(Stage& stage, const TruthOptions& options = {});
 
 }  // namespace gnomon::bench

@@ -132,7 +132,7 @@ std::vector<CheckRowSetup> check_row_setups() {
 }
 
 Result<TracedTruths> trace_check_truths(Stage& stage) {
-    auto truths = trace_truths(stage, false);
+    auto truths = trace_truths(stage);
     if (!truths) return truths;
     const std::vector<std::string> source(kSource.begin(), kSource.end());
     if (auto error = stage.start_over(source)) return *error;

@@ -93,6 +93,14 @@ void judge_by_disk(const TracedTruths& truths, const TracedLight& light, const s
     if (m.widths.places > 0) figures.width_ratio = m.widths.median_ratio;
 }
 
+void judge_by_area(const TracedLight& light, const std::vector<float>& measured, RowFigures& figures) {
+    const oracle::AreaMetrics m = oracle::compare_area(light.area, measured, light.point.ambiguous);
+    if (m.crossed == 0) return;
+    figures.area_error = m.mean_error;
+    figures.area_bias = m.bias;
+    figures.area_p99 = m.p99_error;
+}
+
 /// Copies the light's report into the row. `draws`: most of any frame since the row began.
 void take_report(const LightItem& light, const LightReport& report, std::uint32_t draws, LightRow& row) {
     row.kind = light.kind;
@@ -135,6 +143,7 @@ std::optional<Error> judge_lights(Stage& stage, const TracedTruths& truths, cons
         // A source with a size has no true edge, and half of it in sight is no error.
         if (judged && shadow::filter_row(item.shadow.filter).width != shadow::FilterWidth::source) {
             const oracle::EdgeDisplacement edge = judge_by_point(truths, traced, measured, row.figures);
+            if (!traced.area.lit.empty()) judge_by_area(traced, measured, row.figures);
             if (options.edges) judge_edges(stage, truths, traced, edge, row.figures);
             if (options.edges && setup.settings.empty()) judge_far(stage, truths, traced, measured, row.figures);
         }

@@ -51,7 +51,7 @@ Result<FilterRows> measure_filter_rows(Stage& stage, const FilterRowsOptions& op
     std::erase_if(rows.variants, [&](const FilterVariant& v) {
         return v.row->id != ShadowFilter::hard && v.name.find(options.only) == std::string::npos;
     });
-    const auto truths = trace_truths(stage, true);
+    const auto truths = trace_truths(stage, {.disks = true});
     if (!truths) return truths.error();
     rows.size_px = truths.value().hits.size_px;
     for (const TracedLight& light : truths.value().lights) rows.lights.push_back(light.name);

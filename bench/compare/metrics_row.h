@@ -22,6 +22,8 @@ struct RowFigures {
     Figure predicted_px, sub_texel_caster, truth_ambiguous, other_bias, unexplained;
     /// Against the truth about disk_source().
     Figure disk_error, umbra_leak, lit_loss, penumbra_error, width_ratio;
+    /// Against the lit share of pixels' areas, in pixels that an edge crosses; none of filters by the source's size.
+    Figure area_error, area_bias, area_p99;
     /// Times of the depth and lighting pass: gpu with every view drawn in every frame, kept with kept maps. A median
     /// per round. Ratios are to the base row of the same round.
     Spread gpu_us, gpu_ratio, kept_us, kept_ratio;

@@ -82,7 +82,7 @@ nlohmann::ordered_json figures_of(const JudgedPicture& light) {
 }  // namespace
 
 Result<JudgedPictures> judge_pictures(Stage& stage, const JudgePicturesOptions& options) {
-    const auto traced = trace_truths(stage, false);
+    const auto traced = trace_truths(stage);
     if (!traced) return traced.error();
     const TracedTruths& truths = traced.value();
     const SceneSnapshot& scene = stage.frame().snapshot();

@@ -65,7 +65,7 @@ double StripColumn::share() const {
 }
 
 Result<Strip> make_strip(Stage& stage) {
-    const auto truths = trace_truths(stage, false);
+    const auto truths = trace_truths(stage);
     if (!truths) return truths.error();
     Strip strip;
     strip.scene = stage.scene_name();

@@ -60,7 +60,7 @@ Result<std::vector<SweepRow>> chosen(std::vector<SweepRow> plan, const std::stri
 }
 
 std::string header_of(const Stage& stage, const std::string& device, const std::vector<SweepRow>& plan,
-                      std::uint32_t frames, bool disks) {
+                      std::uint32_t frames, const SweepOptions& sweep) {
     const StageOptions& options = stage.options();
     Json rows = Json::array();
     for (const SweepRow& row : plan) rows.push_back({row.name, row.settings, row.kinds});
@@ -75,7 +75,8 @@ std::string header_of(const Stage& stage, const std::string& device, const std::
                       {"offset_m", {options.offset_m.x, options.offset_m.y, options.offset_m.z}},
                       {"settings", options.settings},
                       {"frames", frames},
-                      {"disks", disks},
+                      {"disks", sweep.disks},
+                      {"area_side", sweep.area_side},
                       {"plan", rows}};
     return header.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -214,7 +215,7 @@ Result<SceneSweep> measure_sweep(Stage& stage, const SweepOptions& options) {
     sweep.scene = stage.scene_name();
     sweep.device = stage.device().info().name;
     options.progress("tracing the truth of " + sweep.scene);
-    const auto truths = trace_truths(stage, options.disks);
+    const auto truths = trace_truths(stage, {options.disks, options.area_side});
     if (!truths) return truths.error();
     sweep.camera = stage.frame().snapshot().consumers.front().name;
     sweep.size_px = truths.value().hits.size_px;
@@ -227,8 +228,8 @@ Result<SceneSweep> measure_sweep(Stage& stage, const SweepOptions& options) {
     const std::uint32_t frames = options.frames > 0 ? options.frames : software ? kSoftwareFrames : kDeviceFrames;
     auto pictures = RowPictures::make(options.folder / "pictures", truths.value());
     if (!pictures) return pictures.error();
-    auto journal = SweepJournal::open(options.folder / "journal.jsonl",
-                                      header_of(stage, sweep.device, plan, frames, options.disks));
+    auto journal =
+        SweepJournal::open(options.folder / "journal.jsonl", header_of(stage, sweep.device, plan, frames, options));
     if (!journal) return journal.error();
     Sweeper sweeper(stage, options, truths.value(), plan, std::move(pictures).value(), std::move(journal).value());
     if (auto error = sweeper.judge_all()) return *error;

@@ -16,6 +16,7 @@ struct SweepOptions {
     std::uint32_t frames = 0;      // timed frames of each kind per row and round; 0: by the device
     double budget_s = 1080.0;      // nothing is timed later, except the first round
     bool disks = true;             // soft shadows as well
+    std::uint32_t area_side = 0;   // TruthOptions::area_side
     std::function<void(const std::string& line)> progress = [](const std::string&) {};
     std::vector<SweepRow> plan = {};  // empty: sweep_plan()
     std::string only = {};            // regular expression: only the defaults and rows that match; empty: all

@@ -24,6 +24,7 @@ Result<SceneSweep> sweep_scene(const SweepCommand& command, std::size_t index) {
     options.only = command.only;
     options.rounds = command.rounds.value_or(kRounds);
     options.frames = command.frames;
+    options.area_side = command.area_side;
     options.budget_s = command.size == SweepSize::quick ? kQuickBudget_s : kFullBudget_s;
     options.folder = command.folder / ("scene_" + std::to_string(index));
     options.progress = [](const std::string& line) { std::fprintf(stderr, "gnomon_bench: %s\n", line.c_str()); };

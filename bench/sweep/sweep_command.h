@@ -15,7 +15,8 @@ struct SweepCommand {
     std::filesystem::path folder = "gnomon_sweep";
     std::string only;  // as SweepOptions::only
     std::optional<std::uint32_t> rounds;
-    std::uint32_t frames = 0;  // 0: by the device
+    std::uint32_t frames = 0;     // 0: by the device
+    std::uint32_t area_side = 0;  // as SweepOptions::area_side
 };
 
 /// Sweeps each scene in turn, reports its progress on stderr, and writes report.json into the folder. report.py makes

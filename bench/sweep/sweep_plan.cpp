@@ -158,6 +158,7 @@ std::vector<SweepRow> sweep_plan(SweepSize size, LightKinds kinds) {
     plan.add("format", formats());
     plan.add("bias", biases(size));
     plan.add("filter", filters(size));
+    plan.add("antialias", Value{"antialias=on", {"antialias=on"}});
 
     const std::vector<Value> sizes =
         named(resolutions(size), full ? Names{"resolution=512", "resolution=1024", "resolution=2048", "resolution=4096"}

@@ -53,7 +53,7 @@ protected:
         options.size_px = kGateSize_px;
         stage_ = open(options);
         if (!stage_) return false;
-        auto truths = bench::trace_truths(*stage_, false);
+        auto truths = bench::trace_truths(*stage_);
         if (!truths) {
             ADD_FAILURE() << to_line(truths.error());
             return false;

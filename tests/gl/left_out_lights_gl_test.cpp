@@ -98,7 +98,7 @@ TEST_F(LeftOutLights, AreCountedIfTheirShadowsAreMissingForAnotherReason) {
 TEST_F(LeftOutLights, HaveNoErrorsInASweepAndKeepTheirReason) {
     const auto stage = open_scene();
     ASSERT_TRUE(stage);
-    const auto truths = bench::trace_truths(*stage, false);
+    const auto truths = bench::trace_truths(*stage);
     ASSERT_TRUE(truths);
     const bench::JudgedRow row =
         bench::judge_row(*stage, truths.value(), {.name = "defaults", .settings = {}}, {.edges = true});

@@ -16,7 +16,7 @@ protected:
         options.size_px = {320, 180};
         stage_ = open(options);
         ASSERT_TRUE(stage_);
-        auto truths = bench::trace_truths(*stage_, false);
+        auto truths = bench::trace_truths(*stage_);
         ASSERT_TRUE(truths) << to_line(truths.error());
         truths_ = std::move(truths).value();
     }

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -47,6 +48,7 @@ protected:
         options.plan = std::move(plan);
         options.rounds = rounds;
         options.budget_s = budget_s;
+        options.area_side = area_side_;
         options.progress = [this](const std::string& line) { said_.push_back(line); };
         auto found = bench::measure_sweep(*stage, options);
         if (!found) {
@@ -74,7 +76,27 @@ protected:
 
     OwnFolder own_;
     std::vector<std::string> said_;
+    std::uint32_t area_side_ = 0;
 };
+
+TEST_F(SweepGl, JudgesEdgesByThePixelsAreaIfAsked) {
+    const bench::SweepRow smooth = row("antialias=on", {"antialias=on"});
+    EXPECT_TRUE(found(sweep("without", {kDefaults}), "defaults").at(0)["figures"]["area_error"].is_null());
+    area_side_ = 8;
+    const bench::SceneSweep judged = sweep("with", {kDefaults, smooth, kSoft});
+    auto stairs = found(judged, "defaults"), shares = found(judged, "antialias=on"), soft = found(judged, "soft");
+    ASSERT_EQ(stairs.size(), 3u);
+    ASSERT_EQ(shares.size(), 3u);
+    for (std::size_t light = 0; light < 3; ++light) {
+        EXPECT_GT(stairs[light]["figures"]["area_error"].get<double>(), 0.15) << light;
+        EXPECT_LT(shares[light]["figures"]["area_error"].get<double>(), 0.06) << light;
+        EXPECT_LE(std::abs(shares[light]["figures"]["area_bias"].get<double>()),
+                  shares[light]["figures"]["area_error"].get<double>());
+        EXPECT_GT(shares[light]["figures"]["area_p99"].get<double>(),
+                  shares[light]["figures"]["area_error"].get<double>());
+        EXPECT_TRUE(soft[light]["figures"]["area_error"].is_null()) << "a point's truth is not that of its source";
+    }
+}
 
 TEST_F(SweepGl, ErrorsAreTheSameInAnyOrderOfRows) {
     const auto a = sweep("a", {kDefaults, kHard, kLarge, kSoft, kSunAlone});
