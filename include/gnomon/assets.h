@@ -110,6 +110,9 @@ inline bool transmits(const Material& m) {
            (m.metallic < 1.0f && (m.transmission.x > 0.0f || m.transmission.y > 0.0f || m.transmission.z > 0.0f));
 }
 
+/// Returns true if all of the surface blocks light: it has no mask and lets none through.
+inline bool is_opaque(const Material& m) { return m.alpha_mode == AlphaMode::opaque && !transmits(m); }
+
 /// What lies beyond the edge of a texture.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 /// Picture on a surface.

@@ -68,8 +68,7 @@ void free_shapes(const assets::MeshLibrary& library, MeshFacts& meshes) {
 /// Returns whether nothing is seen through the mesh.
 bool is_opaque(const assets::MeshLibrary& library, const assets::Mesh& mesh) {
     return std::all_of(mesh.submeshes.begin(), mesh.submeshes.end(), [&](const assets::Submesh& submesh) {
-        const assets::Material& material = library.materials[submesh.material];
-        return material.alpha_mode == assets::AlphaMode::opaque && !assets::transmits(material);
+        return assets::is_opaque(library.materials[submesh.material]);
     });
 }
 

@@ -32,8 +32,7 @@ MeshRange range_of(const assets::MeshLibrary& library, const assets::Mesh& mesh)
     for (const assets::Submesh& s : mesh.submeshes) {
         const assets::Material& material = library.materials[s.material];
         range.most_reflected = std::max(range.most_reflected, most_reflected(material));
-        range.solid = range.solid && material.alpha_mode == assets::AlphaMode::opaque && !assets::transmits(material) &&
-                      !material.double_sided;
+        range.solid = range.solid && assets::is_opaque(material) && !material.double_sided;
     }
     return range;
 }

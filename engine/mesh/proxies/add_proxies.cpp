@@ -11,8 +11,6 @@
 namespace gnomon::assets {
 namespace {
 
-bool is_opaque(const Material& material) { return material.alpha_mode == AlphaMode::opaque && !transmits(material); }
-
 /// Opaque faces of a mesh, over welded points.
 struct OpaqueSurface {
     std::vector<glm::dvec3> points;
