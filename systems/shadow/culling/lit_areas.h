@@ -23,7 +23,7 @@ LitArea area_in_range(const LightItem& light, const ConsumerItem& camera);
 
 /// Computes the part of a picture that holds all instances which a light lights. It is the rectangle around the light's
 /// receivers, if they are all that it lights, and otherwise around the instances in its reach. Lights that are beyond
-/// both limits above, and suns, have the whole picture, within their range.
+/// both limits above, and suns, have all of the picture that their range and cone reach.
 /// `searched`: sets that were found for this camera, among others; null: none.
 LitArea lit_area(const SceneSnapshot& scene, std::uint32_t light, const ConsumerItem& camera,
                  const ReceiverCasterSets* searched, SetScratch& scratch);

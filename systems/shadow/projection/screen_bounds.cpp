@@ -133,15 +133,15 @@ gl::Rect cone_rectangle(const LightItem& light, const ConsumerItem& c) {
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
     const gl::Rect whole{0, 0, static_cast<std::int32_t>(c.viewport_px.x), static_cast<std::int32_t>(c.viewport_px.y)};
     if (light_facts(light.kind).parallel) return whole;
-    const gl::Rect unbounded = light_facts(light.kind).cone ? cone_rectangle(light, c) : whole;
-    if (!(light.range_m > 0.0)) return unbounded;
+    const auto unbounded = [&] { return light_facts(light.kind).cone ? cone_rectangle(light, c) : whole; };
+    if (!(light.range_m > 0.0)) return unbounded();
     const Ball ball = reached_ball(light);
     const glm::dvec3 p = (ball.centre_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
     const double r = ball.radius_m;
     const bool orthographic = c.projection == CameraProjection::orthographic;
     const double front_m = -p.z + r;  // farthest part of the sphere along the view
     if (!(front_m > c.near_m) || -p.z - r > c.far_m) return {};
-    if (!orthographic && !(-p.z - r > c.near_m)) return unbounded;  // the sphere reaches the near plane
+    if (!orthographic && !(-p.z - r > c.near_m)) return unbounded();  // the sphere reaches the near plane
     const glm::dvec2 half = half_extent(c);
     glm::dvec2 low, high;
     for (int axis = 0; axis < 2; ++axis) {

@@ -8,9 +8,9 @@ namespace gnomon::shadow {
 /// Pixels around what is computed that a rasteriser's rounding may reach, and neighbours that antialiased edges read.
 inline constexpr double kRasterMargin_px = 2.0;
 
-/// Returns the pixels that a light can reach in a camera view: the whole viewport for a sun or an unlimited light.
-/// Otherwise the rectangle around a ball that contains the range, or a spot's cone. Empty if the ball is behind the
-/// camera or beyond its far plane. Conservative.
+/// Returns the pixels that a light can reach in a camera view: the whole viewport for a sun or a point light without a
+/// range. Otherwise the rectangle around a ball that contains the range, or its part in a spot's cone, or around a cone
+/// without an end. Empty if the camera does not see it. Conservative.
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
 
 /// Returns a lower bound on the reversed depths, in [0,1], of all surfaces up to a distance along the view.

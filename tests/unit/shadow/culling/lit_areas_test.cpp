@@ -125,7 +125,11 @@ SceneSnapshot street() {
 TEST(LitArea, OfAFarLampWithoutARangeIsThatOfItsConeOnTheGround) {
     SceneSnapshot scene = street();
     const LitArea area = areas_of(scene).at(0);
-    EXPECT_EQ(area.reach, (gl::Rect{0, 0, 640, 360}));
+    // The cone without a floor: from the lamp, 28 pixels above the middle, to the picture's lower edge.
+    EXPECT_EQ(area.reach.y, 0);
+    EXPECT_NEAR(area.reach.height, 180 + 28, 3);
+    EXPECT_GT(area.reach.width, 200);
+    EXPECT_LT(area.reach.width, 400);
     // The cone's disc of 6.8 m and the post of 2 m, 40 m away: 63 by 24 pixels.
     EXPECT_GT(area.screen.width, 60);
     EXPECT_LT(area.screen.width, 130);
@@ -163,7 +167,7 @@ TEST(LitArea, StaysWhereItIsWhileAReceiverMovesLittle) {
     EXPECT_LE(moved, 1) << "a step of the grid at most";
 }
 
-TEST(LitArea, IsTheWholePictureForSunsAndForLightsOfMoreThanTheLimits) {
+TEST(LitArea, IsTheWholePictureForSunsAndAllThatIsReachedForLightsOfMoreThanTheLimits) {
     SceneSnapshot scene = street();
     const gl::Rect whole{0, 0, 640, 360};
     scene.lights[0].kind = LightKind::directional;
@@ -172,8 +176,13 @@ TEST(LitArea, IsTheWholePictureForSunsAndForLightsOfMoreThanTheLimits) {
     const InstanceItem post = scene.instances[1];
     scene.lights[0].has_shadow = false;
     while (scene.instances.size() < kMostLitInstances) scene.instances.push_back(post);
-    EXPECT_LT(areas_of(scene).at(0).screen.width, 640);
+    LitArea area = areas_of(scene).at(0);
+    EXPECT_LT(pixels(area.screen), 0.5 * pixels(area.reach));
     scene.instances.push_back(post);
+    area = areas_of(scene).at(0);
+    EXPECT_EQ(area.screen, area.reach);
+    EXPECT_LT(area.reach.width, 640);
+    scene.lights[0].kind = LightKind::point;
     EXPECT_EQ(areas_of(scene).at(0).screen, whole);
 }
 
