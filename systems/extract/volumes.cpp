@@ -6,18 +6,22 @@ namespace gnomon {
 namespace {
 
 math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m) {
-    const double half_y =
-        c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
-    const double half_x = half_y * aspect(c);
+    const glm::dvec2 half = half_extent(c);
     return c.projection == CameraProjection::orthographic
-               ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m)
-               : math::perspective_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m);
+               ? math::orthographic_frustum(place_m, c.rotation_ws, half.x, half.y, near_m, far_m)
+               : math::perspective_frustum(place_m, c.rotation_ws, half.x, half.y, near_m, far_m);
 }
 
 }  // namespace
 
 double aspect(const ConsumerItem& consumer) {
     return static_cast<double>(consumer.viewport_px.x) / static_cast<double>(consumer.viewport_px.y);
+}
+
+glm::dvec2 half_extent(const ConsumerItem& c) {
+    const double half_y =
+        c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+    return {half_y * aspect(c), half_y};
 }
 
 math::Frustum consumer_frustum(const ConsumerItem& c) { return frustum_from(c.position_ws_m, c, c.near_m, c.far_m); }
@@ -38,9 +42,6 @@ math::Frustum pyramid(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws
     return math::perspective_frustum(apex_ws_m, rotation_ws, tan_half, tan_half, 0.0, far_m);
 }
 
-double pixel_footprint(const ConsumerItem& c) {
-    const double half = c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
-    return 2.0 * half / static_cast<double>(c.viewport_px.y);
-}
+double pixel_footprint(const ConsumerItem& c) { return 2.0 * half_extent(c).y / static_cast<double>(c.viewport_px.y); }
 
 }  // namespace gnomon

@@ -1,4 +1,6 @@
 #pragma once
+#include <glm/vec2.hpp>
+
 #include "engine/math/frustum.h"
 #include "systems/extract/snapshot.h"
 
@@ -6,6 +8,9 @@ namespace gnomon {
 
 /// Computes width over height of the consumer's picture.
 double aspect(const ConsumerItem& consumer);
+
+/// Computes half the extent of its picture along its axes: tangents, or metres if it is orthographic.
+glm::dvec2 half_extent(const ConsumerItem& consumer);
 
 /// Computes the consumer's view volume in world space, optionally with another near or far plane.
 math::Frustum consumer_frustum(const ConsumerItem& consumer);

@@ -41,9 +41,7 @@ shadow::CameraRecord with_lens(const shadow::CameraRecord& camera, const DepthPi
 }
 
 gl::Rect in_picture(const gl::Rect& area, const ConsumerItem& consumer, const DepthPicture& picture) {
-    const double half_y = consumer.projection == CameraProjection::orthographic ? consumer.half_height_m
-                                                                                : std::tan(0.5 * consumer.fov_y_rad);
-    const glm::dvec2 half(half_y * aspect(consumer), half_y), size(picture.size_px);
+    const glm::dvec2 half = half_extent(consumer), size(picture.size_px);
     const auto pixels = [&](const glm::dvec2& of_consumer) {
         const glm::dvec2 place = (of_consumer / glm::dvec2(consumer.viewport_px) * 2.0 - 1.0) * half;
         return (place / picture.lens.half - picture.lens.shift + 1.0) * 0.5 * size;
@@ -86,10 +84,8 @@ gl::ProgramHandle MaskPass::import_program(const DepthPicture& picture) const {
 }
 
 /// Records what light passes read of each surface's material, which is the same for all: the layers that it takes
-/// shadows of. Once, and after each change.
-void MaskPass::import_material(const DepthPicture& picture, gl::CommandList& list) {
-    if (imported_layers_ == picture.receive_layers) return;
-    imported_layers_ = picture.receive_layers;
+/// shadows of.
+void MaskPass::import_material(const DepthPicture& picture, gl::CommandList& list) const {
     const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
     const float layers = static_cast<float>(picture.receive_layers) / 255.0f;
     list.add(gl::BeginPass{same_material_, all, false, 0.0f, true, {0.0f, 0.0f, layers, 0.0f}});

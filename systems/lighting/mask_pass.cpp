@@ -296,7 +296,6 @@ void MaskPass::release() {
         device_.destroy(*target);
         *target = {};
     }
-    imported_layers_ = kNoLayers;
     for (gl::TextureHandle* texture : {&depth_, &normals_, &material_}) {
         device_.destroy(*texture);
         *texture = {};

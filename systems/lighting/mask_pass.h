@@ -81,7 +81,7 @@ private:
     void provide_undecided(bool wanted);
     void upload(const MaskInputs& in, gl::CommandList& list);
     void bind_camera(std::uint32_t sample, gl::CommandList& list) const;
-    void import_material(const DepthPicture& picture, gl::CommandList& list);
+    void import_material(const DepthPicture& picture, gl::CommandList& list) const;
     gl::ProgramHandle import_program(const DepthPicture& picture) const;
     void import(const DepthPicture& picture, const gl::Rect& area, std::uint32_t sample, gl::CommandList& list) const;
     LightProgram program_of(const shadow::LightingLight& light);
@@ -106,8 +106,6 @@ private:
     GrowingBuffer uniforms_;
     gl::TextureHandle depth_{}, normals_{}, material_{}, mask_{};
     gl::TargetHandle surfaces_{}, same_material_{};
-    static constexpr int kNoLayers = -1;
-    int imported_layers_ = kNoLayers;                  // what material_ holds
     std::vector<gl::TargetHandle> targets_;            // one per layer of the mask, with depth_
     gl::TextureHandle undecided_{};                    // depth of the pixels that a light's first draw has left
     std::vector<gl::TargetHandle> undecided_targets_;  // one per layer, with undecided_; none: each light is one draw

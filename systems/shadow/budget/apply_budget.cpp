@@ -47,8 +47,7 @@ double area_px(const gl::Rect& rect) { return static_cast<double>(rect.width) * 
 /// the camera.
 double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
-    const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
-    const glm::dvec2 half(half_y * aspect(c), half_y);
+    const glm::dvec2 half = half_extent(c);
     glm::dvec2 low(1.0), high(-1.0);
     for (const glm::dvec3& point : points_ws) {
         const glm::dvec3 p = (point - c.position_ws_m) * c.rotation_ws;  // view axes

@@ -65,8 +65,7 @@ struct SeenBounds {
 /// Computes the bounds of what of the points is before the camera. Points of other cameras may be elsewhere.
 SeenBounds bounds_of(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
-    const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
-    const glm::dvec2 half(half_y * aspect(c), half_y), half_px = 0.5 * glm::dvec2(c.viewport_px);
+    const glm::dvec2 half = half_extent(c), half_px = 0.5 * glm::dvec2(c.viewport_px);
     SeenBounds bounds;
     for (const glm::dvec3& point : points_ws) {
         const glm::dvec3 p = (point - c.position_ws_m) * c.rotation_ws;  // view axes

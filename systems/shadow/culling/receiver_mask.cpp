@@ -15,7 +15,8 @@ namespace {
 /// Rounding of a place along an axis, relative to the largest coordinate: some ten units of a double.
 constexpr double kPlaceRounding = 0x1p-48;
 
-/// Returns the number of cells along a side, a power of two: a receiver of the mean size covers some 64.
+/// Returns the number of cells along a side, a power of two. A receiver of the mean size covers 64, so that rounding to
+/// cells widens it by a quarter at most.
 int cells_for(std::size_t receivers) {
     int cells = ReceiverMask::kFewestCells;
     while (cells < ReceiverMask::kMostCells && static_cast<std::size_t>(cells) * cells < 64 * receivers) cells *= 2;

@@ -9,8 +9,8 @@ namespace gnomon::shadow {
 
 /// Grid over a sun's map with the cells that visible receivers cover.
 struct ReceiverMask {
-    /// Limits of `cells`. At most: cells of a cascade of kilometres are as large as houses. Few receivers need few, and
-    /// filling them takes longer than listing a hundred casters.
+    /// Limits of `cells`. At most: cells of a cascade of kilometres are as large as houses, and filling them takes half
+    /// a million instructions. Fewest: those take a sixtieth of that.
     static constexpr int kFewestCells = 32, kMostCells = 256;
 
     int cells = kFewestCells;  // along a side

@@ -37,13 +37,6 @@ Ball reached_ball(const LightItem& light) {
     return {light.position_ws_m + ahead * (range_m * std::cos(angle_rad)), range_m * std::sin(angle_rad)};
 }
 
-/// Returns half the extent of a camera's picture: tangents, or metres if it is orthographic.
-glm::dvec2 half_extent(const ConsumerItem& c) {
-    const double half_y =
-        c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
-    return {half_y * aspect(c), half_y};
-}
-
 /// Returns the pixels that lie at least partly in a rectangle from `low` to `high`, both in [-1,1].
 gl::Rect pixels_of(const glm::dvec2& low, const glm::dvec2& high, const glm::uvec2& viewport_px) {
     const glm::dvec2 size(viewport_px);
