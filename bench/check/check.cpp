@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <regex>
 #include <thread>
 
 #include "bench/check/check_scene.h"
+#include "bench/common/pattern.h"
 #include "bench/text/printf_string.h"
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
@@ -24,22 +24,15 @@ constexpr std::uint32_t kFirstFrames = 64, kFirstFramesInSoftware = 4;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Leaves out what has no part that matches; empty matches all. How many were
-/// left out.
+/// Leaves out what has no part that matches; empty matches all. Returns how many were left out.
 template <class Item, class Name>
-Result<std::size_t> select(std::vector<Item>& items, const std::string& pattern, const char* what, Name name) {
-    if (pattern.empty()) return std::size_t{0};
-    try {
-        const std::regex wanted(pattern);
-        const std::size_t left_out =
-            std::erase_if(items, [&](const Item& item) { return !std::regex_search(name(item), wanted); });
-        if (items.empty())
-            return Error{std::string("no ") + what + " has a part that matches '" + pattern + "'", "", "",
-                         "check.pattern"};
-        return left_out;
-    } catch (const std::regex_error&) {
-        return Error{"'" + pattern + "' is no regular expression", "", "", "check.pattern"};
-    }
+Result<std::size_t> select(std::vector<Item>& items, const std::string& text, const char* what, Name name) {
+    const Pattern wanted(text);
+    if (!wanted.is_valid()) return Error{"'" + text + "' is no regular expression", "", "", "check.pattern"};
+    const std::size_t left_out = std::erase_if(items, [&](const Item& item) { return !wanted.matches(name(item)); });
+    if (items.empty() && left_out > 0)
+        return Error{std::string("no ") + what + " has a part that matches '" + text + "'", "", "", "check.pattern"};
+    return left_out;
 }
 
 /// In a context of their own, so that what they say of themselves is there

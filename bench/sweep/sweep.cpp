@@ -1,13 +1,12 @@
 #include "bench/sweep/sweep.h"
 
-#include <regex.h>
-
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "bench/accuracy/reference_images.h"
+#include "bench/common/pattern.h"
 #include "bench/compare/crop_images.h"
 #include "bench/compare/paired_times.h"
 #include "bench/sweep/progress.h"
@@ -47,15 +46,9 @@ Json stamp_of(const std::filesystem::path& file) {
 
 /// Returns the defaults, and rows with names that match. Errors: "rows.regex".
 Result<std::vector<SweepRow>> chosen(std::vector<SweepRow> plan, const std::string& only) {
-    if (only.empty()) return plan;
-    // POSIX's: std::regex does not compile with GCC 12's warnings under the sanitizers.
-    regex_t wanted;
-    if (regcomp(&wanted, only.c_str(), REG_EXTENDED | REG_NOSUB) != 0)
-        return Error{"'" + only + "' is no regular expression", "", "", "rows.regex"};
-    std::erase_if(plan, [&](const SweepRow& row) {
-        return row.name != kDefaultsRow && regexec(&wanted, row.name.c_str(), 0, nullptr, 0) != 0;
-    });
-    regfree(&wanted);
+    const Pattern wanted(only);
+    if (!wanted.is_valid()) return Error{"'" + only + "' is no regular expression", "", "", "rows.regex"};
+    std::erase_if(plan, [&](const SweepRow& row) { return row.name != kDefaultsRow && !wanted.matches(row.name); });
     return plan;
 }
 

@@ -13,6 +13,8 @@ BAD_INPUT = 2
 SMALL = "320x180"
 TIMEOUT_S = 120
 BENCH_TIMEOUT_S = 500
+# Set by `./gnomon test --long`, and so by CI.
+LONG = "GNOMON_LONG" in os.environ
 
 
 class Picture:
