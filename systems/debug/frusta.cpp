@@ -33,9 +33,8 @@ void add_camera(const ViewInput& input, const ConsumerItem& camera, LineDrawing&
     for (const glm::dvec3& point : input.frame.sets.receiver_points_ws)
         far_m = std::max(far_m, glm::dot(camera.position_ws_m - point, camera.rotation_ws[2]));
     const bool flat = camera.projection == CameraProjection::orthographic;
-    const double half_y = flat ? camera.half_height_m : std::tan(0.5 * camera.fov_y_rad);
-    const glm::dvec3 half_right = camera.rotation_ws[0] * (half_y * aspect(camera));
-    const glm::dvec3 half_up = camera.rotation_ws[1] * half_y;
+    const glm::dvec2 half = half_extent(camera);
+    const glm::dvec3 half_right = camera.rotation_ws[0] * half.x, half_up = camera.rotation_ws[1] * half.y;
     Corners corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const double ahead_m = (i & 4) != 0 ? camera.near_m : far_m, wide = flat ? 1.0 : ahead_m;

@@ -194,6 +194,7 @@ class LinkedProgram {
 public:
     explicit LinkedProgram(const gl::ProgramDesc& desc) : name_(glCreateProgram()) {
         attach(GL_VERTEX_SHADER, desc.vertex);
+        attach(GL_GEOMETRY_SHADER, desc.geometry);
         attach(GL_FRAGMENT_SHADER, desc.fragment);
         attach(GL_COMPUTE_SHADER, desc.compute);
         glLinkProgram(name_);

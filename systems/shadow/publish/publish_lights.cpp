@@ -195,18 +195,17 @@ void bias_record(const ShadowTuning::Bias& bias, LightingLight& out) {
 
 CameraRecord camera_record(const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
-    const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
-    const double half_x = half_y * aspect(c);
+    const glm::dvec2 half = half_extent(c);
     const glm::dmat4 projection = orthographic
-                                      ? math::reversed_orthographic(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m)
-                                      : math::reversed_perspective(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m);
+                                      ? math::reversed_orthographic(-half.x, half.x, -half.y, half.y, c.near_m, c.far_m)
+                                      : math::reversed_perspective(-half.x, half.x, -half.y, half.y, c.near_m, c.far_m);
     const math::TwoFloat3 anchor = math::split(c.position_ws_m);
     CameraRecord record;
     record.clip_from_anchor = glm::mat4(projection * glm::dmat4(glm::transpose(c.rotation_ws)));
     record.anchor_high = glm::vec4(anchor.high, 0.0f);
     record.anchor_low = glm::vec4(anchor.low, 0.0f);
-    record.right = with_w(c.rotation_ws[0], half_x);
-    record.up = with_w(c.rotation_ws[1], half_y);
+    record.right = with_w(c.rotation_ws[0], half.x);
+    record.up = with_w(c.rotation_ws[1], half.y);
     record.back = with_w(c.rotation_ws[2], orthographic ? 1.0 : 0.0);
     const double range_m = c.far_m - c.near_m;
     const glm::dvec2 unproject =

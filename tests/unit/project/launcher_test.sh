@@ -16,7 +16,7 @@ cp "$launcher" "$project/gnomon"
 echo '{}' >"$project/CMakePresets.json"
 echo "project(Gnomon VERSION 1.2.3)" >"$project/CMakeLists.txt"
 printf '%s\n' '# the list' 'here  # is installed' 'older|newer  # one of two is installed' 'absent  # must come' \
-    'first|second  # only the second exists' 'slow  # test: for tests only' >"$project/packages.txt"
+    'first|second  # only the second exists' 'slow  # test: for tests only' 'rare  # long: for long runs only' >"$project/packages.txt"
 
 stand_in() { printf '#!/bin/bash\n%s\n' "$2" >"$work/bin/$1"; chmod +x "$work/bin/$1"; }
 # dpkg_has NAME...: dpkg-query knows these as installed, and `removed` as known but not installed.
@@ -72,7 +72,7 @@ run -- deps
 expect "deps succeeds" is "$status" 0
 expect "lists are read first" called "apt-get -o DPkg::Lock::Timeout=300 update"
 expect "only what is missing comes, the existing name of two" \
-    called "install -y --no-install-recommends absent second slow"
+    called "install -y --no-install-recommends absent second slow rare"
 expect "root needs no sudo" not_called sudo
 
 run FAKE_UID=1000 -- deps
@@ -80,7 +80,7 @@ expect "others use sudo" called sudo
 run APT_STATUS=100 -- deps
 expect "a failed installation fails" is "$status" 1
 
-dpkg_has here older newer absent first second slow
+dpkg_has here older newer absent first second slow rare
 run -- deps
 expect "nothing missing: apt-get is left alone" is "$(<"$calls")" ""
 expect "and nothing is said" is "$err" ""
@@ -165,6 +165,7 @@ expect "test runs ctest" called "-R Aabb"
 expect "on the seed that all runs share" called "seed=none"
 expect "without what is long" called "-LE ^long$"
 expect "and without sanitizers" not_called asan
+expect "and what only long runs need" not_called apt-get
 expect "prints the summary" has "$out" "tests-release.xml"
 run -- test --seed 7; expect "a seed is passed on" called "seed=7 long=no"
 run -- test --seed random
@@ -173,6 +174,7 @@ expect "and passed on" not_called "seed=random"
 run -- test --seed x; expect "a seed that is no number is status 2" is "$status" 2
 run -- test --long
 expect "long tests are long" called "seed=none long=1"
+expect "and bring what they need" called "--no-install-recommends rare"
 expect "and run under sanitizers, as long as others" called "asan --output-junit"
 run GNOMON_PROGRESS_S=1 TESTS_TAKE_S=2.5 TESTS_STATUS=8 -- test
 expect "a failed test fails" is "$status" 1
@@ -192,7 +194,7 @@ mkdir "$work/bare"
 for tool in bash env readlink dirname paste sed mkdir cat; do ln -s "$(command -v "$tool")" "$work/bare/$tool"; done
 out=$(env -u GNOMON_SKIP_DEPS -u GNOMON_TEST_SEED -u GNOMON_SLOWEST_S -u GNOMON_PROGRESS_S -u GNOMON_LONG PATH="$work/bare" "$project/gnomon" deps 2>"$work/err"); status=$?; err=$(<"$work/err")
 expect "without apt-get deps is status 2" is "$status" 2
-expect "and says what to install" has "$err" "here older|newer absent first|second slow"
+expect "and says what to install" has "$err" "here older|newer absent first|second slow rare"
 
 if ((failures > 0)); then exit 1; fi
 echo "the launcher keeps its promises"
