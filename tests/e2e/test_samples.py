@@ -2,8 +2,9 @@
 import json
 import os
 import time
+import unittest
 
-from game import Picture, SMALL, read_bytes
+from game import LONG, Picture, SMALL, read_bytes
 from window import WindowTest, main_in_display
 
 HELD = ("--time", "0")
@@ -52,6 +53,7 @@ class Samples(WindowTest):
             self.assert_refused("--headless", "--samples", wrong, mentions="--samples")
         self.assert_refused("--headless", "--smooth", "maybe", mentions="--smooth")
 
+    @unittest.skipUnless(LONG, "long runs only: the test after it adds samples in a window, too")
     def test_a_still_window_shows_what_headless_samples_show(self):
         window = self.play(self.leave, *HELD)
         file = self.path("headless.png")

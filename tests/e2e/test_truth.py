@@ -91,8 +91,7 @@ class Truth(GameTest):
         self.assertGreater(sum(light["wrong_px"] for light in plain.values()), 0)
         self.assertGreater(min(light["edge"]["places"] for light in plain.values()), 100)
 
-    # Rays to 256 places of each source; gl_truth.MeanErrorGate holds the same filters against them in every run.
-    @unittest.skipUnless(LONG, "long runs only")
+    @unittest.skipUnless(LONG, "long runs only: gl_truth.MeanErrorGate judges such filters in each")
     def test_a_filter_that_reads_the_sources_size_is_judged_by_all_of_it(self):
         sized = ("--set", "source_radius_m=0.05", "--set", "sun_radius_deg=1", "--set", "resolution=1024")
         hard, _ = self.judged(*sized)

@@ -1,8 +1,9 @@
 """A real window under Xvfb, with key and mouse input."""
 import json
 import time
+import unittest
 
-from game import Picture, SMALL
+from game import LONG, Picture, SMALL
 from window import W, H, WindowTest, main_in_display
 
 
@@ -36,6 +37,7 @@ class Window(WindowTest):
         self.assertGreater(still.mean_difference(looked), 3.0, "the mouse did not turn the camera")
         self.assertGreater(walked.mean_difference(looked), 3.0)
 
+    @unittest.skipUnless(LONG, "long runs only: the test before it holds keys, too")
     def test_p_lets_held_motion_go(self):
         def unpause(window):
             self.xdo("key", "p")

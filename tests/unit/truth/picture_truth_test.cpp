@@ -207,6 +207,7 @@ TEST(TruthOfAPicture, WithoutACasterEverythingInReachIsLit) {
 
 TEST(TruthOfAPicture, ASourcesSizeAndTheNumberOfThreadsChangeNothing) {
     const auto scene = load(std::nullopt, 3.0);
+    scene->move_to(3.0, kSize_px / 2u);
     const PictureTruth plain = traced(*scene);
     for (LightItem& light : scene->snapshot.lights) {
         light.source_radius_m = 0.3f;
