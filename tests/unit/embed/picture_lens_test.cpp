@@ -41,7 +41,7 @@ std::vector<Projection> projections() {
     return {
         {"usual", glm::perspectiveRH_NO(0.9, 1.25, 0.1, 100.0), ClipDepth::minus_one_to_one, 0.1, 100.0, false},
         {"from 0", glm::perspectiveRH_ZO(0.9, 1.25, 0.1, 100.0), ClipDepth::zero_to_one, 0.1, 100.0, false},
-        {"infinite", glm::infinitePerspectiveRH(0.9, 1.25, 0.1), ClipDepth::minus_one_to_one, 0.1, kInfinity, false},
+        {"infinite", glm::infinitePerspective(0.9, 1.25, 0.1), ClipDepth::minus_one_to_one, 0.1, kInfinity, false},
         {"reversed infinite", reversed_infinite(0.6, 0.5, 0.1), ClipDepth::zero_to_one, 0.1, kInfinity, true},
         {"reversed off-centre", reversed, ClipDepth::zero_to_one, 0.1, 50.0, true},
         {"jittered", jittered, ClipDepth::minus_one_to_one, 0.25, 400.0, false},
