@@ -112,6 +112,8 @@ def key_rows(tables):
 def options_table(text):
     """Flags of a --help of CLI11 as a table; the part of a meaning before its colon is the flag's value."""
     rows = []
+    # From version 2.5 on, long names stand in a column of their own.
+    text = re.sub(r"^  (-\w), +(?=--)", r"  \1,", re.sub(r"^ {10}(?=--)", "  ", text, flags=re.M), flags=re.M)
     for line in text.splitlines():
         flag = re.match(r"  (-\S.*?)(?:  +(.*))?$", line)
         if flag:
@@ -123,17 +125,21 @@ def options_table(text):
             break
     cells = []
     for names, meaning in rows:
-        meaning = re.sub(r"\bTEXT\b(?: \.\.\.)? ?", "", meaning).strip()
+        meaning = re.sub(r"\bTEXT\b(?: \.\.\.)? ?|^\.\.\. ", "", meaning).strip()
         value = re.match(r"([A-Z][\w.]*(?:[|=x\[:][\w|.:\[\]]*)?|[a-z]+(?:\|[a-z]+)+|[A-Z]+(?: \.\.\.)?)(?=: | \(|$):? ?", meaning)
         shown = names[-1] + (" " + value[1] if value else "")
         cells.append([code(shown), meaning[value.end():] if value else meaning])
     return table(["flag", "meaning"], cells)
 
 
+# CLI11 writes it in capitals from version 2.5 on.
+HEADING_OF_SUBCOMMANDS = re.compile(r"^subcommands:\n", re.IGNORECASE | re.MULTILINE)
+
+
 def subcommands(text):
     """Names and words of the subcommands in a --help of CLI11."""
     rows = []
-    for line in text[text.index("Subcommands:"):].splitlines()[1:]:
+    for line in re.split(HEADING_OF_SUBCOMMANDS, text)[1].splitlines():
         begin = re.match(r"  (\w+)(?:  +(.*))?$", line)
         if begin:
             rows.append([begin[1], begin[2] or ""])
