@@ -134,8 +134,8 @@ TEST_P(EveryGlCallFails, WithoutAFrameOrAShadowOrAnObjectLostForGood) {
     const std::uint64_t calls = count_calls();
     const bool few = GetParam() == GlFault::null_map;  // memory is mapped where lists get larger
     ASSERT_GE(calls, few ? 1u : kShortRunCases);
-    // Every fourth call of a long run fails, in turn once or with all later ones.
-    const std::uint64_t stride = few ? 1 : is_long_run() ? 8 : calls / kShortRunCases;
+    // Every other call of a long run fails, in turn once or with all later ones.
+    const std::uint64_t stride = few ? 1 : is_long_run() ? 4 : calls / kShortRunCases;
     std::uint64_t cases = 0;
     for (const bool lasting : {false, true})
         for (std::uint64_t call = lasting ? stride / 2 : 0; call < calls; call += stride, ++cases) play(call, lasting);

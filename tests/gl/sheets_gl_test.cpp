@@ -93,7 +93,7 @@ protected:
         tally.beyond += static_cast<std::size_t>(std::count(behind.begin(), behind.end(), 0.0f));
         discard(drawn);
     }
-    static int worlds() { return is_long_run() ? 20 : 6; }
+    static int worlds() { return is_long_run() ? 40 : 6; }
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Sheets, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),

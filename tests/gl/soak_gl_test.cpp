@@ -56,7 +56,7 @@ protected:
 };
 
 TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
-    constexpr std::size_t kFrames = 2000;
+    constexpr std::size_t kFrames = 3000;
     world.use_everything([this] { step(); });
     const std::size_t baseline = objects_when_empty();
     churn(kFrames);

@@ -55,7 +55,7 @@ protected:
         judge(scene, view, places, found, margins && ask == Ask::source, tally);
     }
 
-    static int worlds() { return is_long_run() ? 20 : 8; }
+    static int worlds() { return is_long_run() ? 40 : 8; }
     static std::size_t places() { return is_long_run() ? 40000 : 12000; }
 
 private:
