@@ -142,7 +142,7 @@ def subcommands(text):
     for line in re.split(HEADING_OF_SUBCOMMANDS, text)[1].splitlines():
         begin = re.match(r"  (\w+)(?:  +(.*))?$", line)
         if begin:
-            rows.append([begin[1], begin[2] or ""])
+            rows.append([begin[1], (begin[2] or "").strip()])
         elif rows and re.match(r" {6,}\S", line):
             rows[-1][1] = (rows[-1][1] + " " + line.strip()).strip()
     return rows
@@ -381,8 +381,18 @@ SPOILT = (("|b|", "|c|"), ("generated: keys", "generated: key"), ("<!-- /generat
           (", commit 0123456", ""), ("<sub>Made by", "<sub>Maid by"))
 
 
+# Help as CLI11 prints it before version 2.5, and from then on.
+HELPS = ("Usage: x\n\nOptions:\n  -h,--help                   Print\n  --scene TEXT ...            FILE: a\n                              scene\n"
+         "\nSubcommands:\n  frame                       times\n",
+         "x\n\nOPTIONS:\n  -h,     --help              Print \n          --scene TEXT ...    FILE: a \n                              scene \n"
+         "\nSUBCOMMANDS:\n  frame                       times \n")
+
+
 def self_test():
     missed = []
+    for read in (options_table, subcommands):
+        if read(HELPS[0]) != read(HELPS[1]) or not read(HELPS[0]):
+            missed.append("%s depends on CLI11's version" % read.__name__)
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         (root / FIGURES.parent).mkdir(parents=True)

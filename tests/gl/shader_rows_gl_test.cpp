@@ -16,7 +16,7 @@ class ShaderRows : public GlTest {};
 // Counts and compares all, and compiles one of seven, so each output with some rows: ShaderLayout compiles all in long
 // runs.
 TEST_F(ShaderRows, EveryRowAndOutputIsThereOnceAndCompilesInSilence) {
-    constexpr std::size_t kStride = 7;  // no divisor of kOutputs
+    constexpr std::size_t kStride = 7;  // no factor in common with kOutputs
     const auto programs = all_programs();
     constexpr std::size_t kArea = 4, kPlain = 3;  // kinds of lights
     const std::size_t kinds = shadow::light_kind_table().size(), filters = map_filters().size();

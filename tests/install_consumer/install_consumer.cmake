@@ -22,7 +22,7 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
   add_test(NAME Package.ExamplesRunAgainstTheInstalledCopy
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/examples/run_examples.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
             ${CMAKE_CURRENT_BINARY_DIR}/examples_consumer ${CMAKE_CXX_COMPILER} $<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>)
-  # The build compiles every example, too; e2e_capture starts one.
+  # The build compiles every example, too; the tutorial's is built and run below.
   set_tests_properties(Package.ExamplesRunAgainstTheInstalledCopy PROPERTIES LABELS "e2e;long" TIMEOUT 600)
   add_test(NAME Package.TheTutorialsProgramDrawsItsPicture
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/tutorial.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}

@@ -16,7 +16,7 @@ struct Scenario {
 };
 
 /// Returns calls from a failing one to the next: 1 in a long run. Else failures and spans begin at calls of their own,
-/// so that each call fails in some.
+/// so that each call fails in some where every failure is played.
 std::uint64_t stride() { return kSanitized ? 8 : is_long_run() ? 1 : 3; }
 
 std::uint64_t first_call(gl::Failure failure, FaultSpan span) {
