@@ -4,12 +4,9 @@ if(GNOMON_SAMPLE)
     cube_routes_gl_test.cpp
     sampled_depths_gl_test.cpp
     cascades_gl_test.cpp
-    flat_receivers_gl_test.cpp
-    planes_gl_test.cpp
     prefiltered_gl_test.cpp
     projection_gl_test.cpp
     shadow_blending_gl_test.cpp
-    shadow_cube_gl_test.cpp
     shadow_limits_gl_test.cpp
     shadow_shape_gl_test.cpp
     shadow_shading_gl_test.cpp

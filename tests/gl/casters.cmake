@@ -4,7 +4,6 @@ if(GNOMON_SAMPLE)
     shadow_layers_gl_test.cpp
     bars_along_light_gl_test.cpp
     caster_faces_gl_test.cpp
-    creases_gl_test.cpp
     far_lamps_gl_test.cpp
     few_draws_gl_test.cpp
     fine_meshes_gl_test.cpp
@@ -13,23 +12,17 @@ if(GNOMON_SAMPLE)
     ledges_gl_test.cpp
     masked_casters_gl_test.cpp
     moved_casters_gl_test.cpp
+    proxies_gl_test.cpp
     refresh_gl_test.cpp
     resolved_width_gl_test.cpp
+    short_references_gl_test.cpp
     vertex_colours_gl_test.cpp
     budget_gl_test.cpp
     ../economy/both_ways.cpp
     LIBRARIES gnomon_bench_parts)
-  # How maps name the triangles that they show.
-  gnomon_tests(NAME gl_references LABEL gl SOURCES short_references_gl_test.cpp proxies_gl_test.cpp
-    LIBRARIES gnomon_sample gnomon_oracle)
   # Translucent casters, by maps and by rays.
   gnomon_tests(NAME gl_tint LABEL gl SOURCES
     tint_gl_test.cpp
     tint_hard_cases_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_oracle)
-  # Meshes that come and go.
-  gnomon_tests(NAME gl_streaming LABEL gl SOURCES
-    streaming_gl_test.cpp
-    ../system/test_world.cpp
-    LIBRARIES gnomon_sample)
 endif()

@@ -11,6 +11,7 @@ if(GNOMON_SAMPLE)
     embed_state_gl_test.cpp
     embed_tint_gl_test.cpp
     embed_views_gl_test.cpp
+    shared_layers_gl_test.cpp
     failing_gl.cpp
     gl_state_record.cpp
     unusual_gl_state.cpp

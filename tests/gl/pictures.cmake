@@ -1,12 +1,10 @@
 # What lights do to pictures, where visibility says nothing of it.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_pictures LABEL gl SOURCES
-    fog_gl_test.cpp
     parallel_light_gl_test.cpp
     picture_samples_gl_test.cpp
     picture_scale_gl_test.cpp
     shadow_catcher_gl_test.cpp
-    smoothed_edges_gl_test.cpp
     unlit_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_oracle)
 endif()
