@@ -78,7 +78,7 @@ std::optional<Error> check_frames(std::span<const CheckRowSetup> setups, const C
     if (!stage) return stage.error();
     const auto start = Clock::now();
     options.progress("truth", 0, 1);
-    const auto truths = trace_check_truths(*stage.value());
+    const auto truths = trace_check_truths(*stage.value(), setups);
     if (!truths) return truths.error();
     rows.size_px = truths.value().hits.size_px;
     rows.trace_s = seconds_since(start);

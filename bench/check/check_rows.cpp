@@ -1,5 +1,6 @@
 #include "bench/check/check_rows.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -131,9 +132,11 @@ std::vector<CheckRowSetup> check_row_setups() {
     return setups;
 }
 
-Result<TracedTruths> trace_check_truths(Stage& stage) {
+Result<TracedTruths> trace_check_truths(Stage& stage, std::span<const CheckRowSetup> rows) {
     auto truths = trace_truths(stage);
-    if (!truths) return truths;
+    const bool of_sources = std::any_of(
+        rows.begin(), rows.end(), [](const auto& row) { return row.filter->width == shadow::FilterWidth::source; });
+    if (!truths || !of_sources) return truths;
     const std::vector<std::string> source(kSource.begin(), kSource.end());
     if (auto error = stage.start_over(source)) return *error;
     stage.run_frame();

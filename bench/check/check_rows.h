@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,9 +68,9 @@ struct RowCheckOptions {
 /// Returns every row: by kind, then filter, then route.
 std::vector<CheckRowSetup> check_row_setups();
 
-/// Traces the truths that all rows are compared with, also for sources with a
-/// size. Errors: those of trace_truths().
-Result<TracedTruths> trace_check_truths(Stage& stage);
+/// Traces the truths that these rows are compared with; those of sources with a
+/// size only where a filter softens by it. Errors: those of trace_truths().
+Result<TracedTruths> trace_check_truths(Stage& stage, std::span<const CheckRowSetup> rows);
 
 /// Draws, judges and times one row.
 CheckRow check_row(Stage& stage, const TracedTruths& truths, const CheckRowSetup& setup,

@@ -37,6 +37,7 @@ protected:
 };
 
 class ShadowShapeOfRow : public ShadowShape, public ::testing::WithParamInterface<Row> {};
+class PlacedShapeOfRow : public ShadowShapeOfRow {};
 
 TEST_P(ShadowShapeOfRow, OfABoxAboveAPlaneIsItsProjection) {
     add_ground(6.0);
@@ -47,7 +48,7 @@ TEST_P(ShadowShapeOfRow, OfABoxAboveAPlaneIsItsProjection) {
     expect_true(kSome, 10 * kSome);
 }
 
-TEST_P(ShadowShapeOfRow, OfABoxThatStandsOnThePlaneReachesItsFoot) {
+TEST_P(PlacedShapeOfRow, OfABoxThatStandsOnThePlaneReachesItsFoot) {
     truth.margin_m = 0.08;
     add_ground(6.0);
     add_box({-0.5, 0.0, -0.7}, {0.6, 2.0, 0.8});
@@ -57,7 +58,7 @@ TEST_P(ShadowShapeOfRow, OfABoxThatStandsOnThePlaneReachesItsFoot) {
     expect_true(kSome, 10 * kSome);
 }
 
-TEST_P(ShadowShapeOfRow, IsTheSameAMillionMetresAway) {
+TEST_P(PlacedShapeOfRow, IsTheSameAMillionMetresAway) {
     const glm::dvec3 far(1.0e6, 0.0, -1.0e6);
     add_ground(6.0, far);
     add_box({-0.5, 1.0, -0.7}, {0.6, 2.0, 0.8}, {.translation_m = far});
@@ -67,9 +68,11 @@ TEST_P(ShadowShapeOfRow, IsTheSameAMillionMetresAway) {
     expect_true(kSome, 10 * kSome);
 }
 
-INSTANTIATE_TEST_SUITE_P(EachKindAndFilter, ShadowShapeOfRow, ::testing::ValuesIn(all_table_rows()), [](const auto& row) {
+std::string name_of_row(const ::testing::TestParamInfo<Row>& row) {
     return std::string(shadow::light_kind_row(row.param.kind).name) + "_" + std::string(shadow::filter_row(row.param.filter).name);
-});
+}
+INSTANTIATE_TEST_SUITE_P(EachKindAndFilter, ShadowShapeOfRow, ::testing::ValuesIn(all_table_rows()), name_of_row);
+INSTANTIATE_TEST_SUITE_P(EachKindAndFilter, PlacedShapeOfRow, ::testing::ValuesIn(all_table_rows()), name_of_row);
 
 class ShadowShapeOfKind : public ShadowShape, public ::testing::WithParamInterface<Row> {};
 

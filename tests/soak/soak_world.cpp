@@ -17,7 +17,7 @@
 namespace gnomon {
 namespace {
 
-constexpr double kArena_m = 8.0;
+constexpr double kSoakArena_m = 8.0;
 
 /// A kind of light with a filter.
 struct Row {
@@ -49,7 +49,8 @@ ecs::Entity& SoakWorld::any_of(std::vector<ecs::Entity>& from) {
 }
 
 glm::dvec3 SoakWorld::place(double low_m, double high_m) {
-    const double x = number(-kArena_m, kArena_m), y = number(low_m, high_m), z = number(-kArena_m, kArena_m);
+    const double x = number(-kSoakArena_m, kSoakArena_m), y = number(low_m, high_m),
+                 z = number(-kSoakArena_m, kSoakArena_m);
     return {x, y, z};
 }
 

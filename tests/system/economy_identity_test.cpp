@@ -46,6 +46,12 @@ protected:
         }
         return differing;
     }
+    /// Runs until a frame differs. With one seed in ten nothing moves within 300 frames that an error would show.
+    bool differs_soon() {
+        for (int round = 0; round < 20; ++round)
+            if (run(300) > 0) return true;
+        return false;
+    }
     static bool is_left_to_rays(const shadow::ShadowFrame& frame, std::uint32_t light) {
         const shadow::IndexRange views = frame.fitted.lights[light].views;
         return views.count > 0 && frame.updates[views.first].skipped_for_rays;
@@ -124,14 +130,14 @@ TEST_F(EconomyIdentity, AMoveThatASignatureMissesWouldBeSeen) {
     mislead = [](SceneSnapshot& scene) {
         for (InstanceItem& item : scene.instances) item.version = 1;
     };
-    EXPECT_GT(run(300), 0);
+    EXPECT_TRUE(differs_soon());
 }
 
 TEST_F(EconomyIdentity, ACasterThatIsForgottenWouldBeSeen) {
     mislead = [](SceneSnapshot& scene) {
         if (scene.instances.size() > 4) scene.instances.back().casts = false;
     };
-    EXPECT_GT(run(300), 0);
+    EXPECT_TRUE(differs_soon());
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(SceneImport, ReadsAreaLightsAfterPunctualOnes) {
         {{"type", "sphere"}, {"extras", {{"shadow", false}}}},
         {{"type", "tube"}, {"size", 1.2}, {"tube", {{"radius", 0.02}}}}};
     for (int i = 0; i < 4; ++i) builder.push("nodes", {{"extensions", {{"EXT_lights_area", {{"light", i}}}}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     ASSERT_EQ(scene.lights.size(), 5U);
     EXPECT_EQ(scene.lights[1].type, assets::LightType::rectangle);
     EXPECT_EQ(scene.lights[1].width_m, 1.5F);
@@ -197,7 +197,7 @@ TEST(SceneImport, TakesAnAreaLightWithoutASizeAsOneThatShowsNothing) {
     builder.doc["extensionsUsed"] = {"EXT_lights_area"};
     builder.doc["extensions"]["EXT_lights_area"]["lights"] = json::array({{{"type", "rect"}, {"size", -1}}});
     builder.push("nodes", {{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}});
-    const SceneData scene = loaded(builder.gltf());
+    const SceneData scene = loaded_scene(builder.gltf());
     EXPECT_GT(scene.lights.at(0).height_m, 0.0F);
     EXPECT_LT(scene.lights.at(0).height_m, 1e-5F);
     ASSERT_EQ(scene.warnings.size(), 1U);

@@ -129,7 +129,9 @@ SourceShares shares_of(const test::LoadedScene& scene, const TracedLight& traced
 }
 
 constexpr LightKind kAreaKinds[] = {LightKind::rectangle, LightKind::disc, LightKind::sphere, LightKind::tube};
-constexpr std::size_t kTraced = kSanitized ? 1 : std::size(kAreaKinds);  // a minute each; all run the same code
+
+/// Seconds each, under sanitizers a minute; all run the same code.
+std::size_t traced_kinds() { return kSanitized || !is_long_run() ? 1 : std::size(kAreaKinds); }
 
 TEST(TruthOfAPicture, OfASourceIsTheReferencesForEachKind) {
     const auto scene = load(std::nullopt, 3.0);
@@ -159,7 +161,7 @@ TEST(TruthOfAPicture, OfASourceIsTheReferencesForEachKind) {
         light.sun_radius_rad = 0.02f;
     }
     expect_same("disks");
-    for (const LightKind kind : std::span(kAreaKinds).first(kTraced)) {
+    for (const LightKind kind : std::span(kAreaKinds).first(traced_kinds())) {
         for (LightItem& light : scene->snapshot.lights) {
             light.sun_radius_rad = 0.0f;
             if (light.kind == LightKind::directional) continue;
