@@ -109,12 +109,21 @@ def key_rows(tables):
             for k in tables["keys"]]
 
 
+def in_two_columns(line):
+    """A line of a --help as CLI11 writes it before version 2.5. Since then long names have a column of their own."""
+    later = re.match(r" {10}(--.*)|  (-\w), +(--.*)", line)
+    if not later:
+        return line
+    names = ",".join(name for name in later.groups() if name)
+    column, meaning = names[:20], names[20:]
+    fills = re.fullmatch(r"\S+ [A-Z]+(?: REQUIRED)? ", column)  # so that the meaning follows by one space
+    return "  " + (column + "  " + meaning if fills else names)
+
+
 def options_table(text):
     """Flags of a --help of CLI11 as a table; the part of a meaning before its colon is the flag's value."""
     rows = []
-    # From version 2.5 on, long names stand in a column of their own.
-    text = re.sub(r"^  (-\w), +(?=--)", r"  \1,", re.sub(r"^ {10}(?=--)", "  ", text, flags=re.M), flags=re.M)
-    for line in text.splitlines():
+    for line in map(in_two_columns, text.splitlines()):
         flag = re.match(r"  (-\S.*?)(?:  +(.*))?$", line)
         if flag:
             names = re.findall(r"-{1,2}[A-Za-z][\w-]*", flag[1].split(" ", 1)[0])
@@ -383,9 +392,9 @@ SPOILT = (("|b|", "|c|"), ("generated: keys", "generated: key"), ("<!-- /generat
 
 # Help as CLI11 prints it before version 2.5, and from then on.
 HELPS = ("Usage: x\n\nOptions:\n  -h,--help                   Print\n  --scene TEXT ...            FILE: a\n                              scene\n"
-         "\nSubcommands:\n  frame                       times\n",
+         "  --out TEXT REQUIRED         F.png: the strip\n  --shadow-bytes TEXT         N|any: bytes\n\nSubcommands:\n  frame                       times\n",
          "x\n\nOPTIONS:\n  -h,     --help              Print \n          --scene TEXT ...    FILE: a \n                              scene \n"
-         "\nSUBCOMMANDS:\n  frame                       times \n")
+         "          --out TEXT REQUIRED F.png: the strip \n          --shadow-bytes TEXT N|any: bytes \n\nSUBCOMMANDS:\n  frame                       times \n")
 
 
 def self_test():

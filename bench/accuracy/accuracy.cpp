@@ -133,6 +133,14 @@ void judge_tint(Stage& stage, const oracle::PrimaryHits& hits, const LightItem& 
     accuracy.tint->metrics = oracle::compare_tint(hits, accuracy.tint->truth, accuracy.tint->measured);
 }
 
+std::optional<Error> judge_air(Stage& stage, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
+    if (stage.frame().snapshot().air.fogs.empty()) return std::nullopt;
+    const auto air = measure_air(stage, indices);
+    if (!air) return air.error();
+    for (std::size_t k = 0; k < indices.size(); ++k) accuracy.lights[k].air = air.value()[k];
+    return std::nullopt;
+}
+
 JudgedErrors judged_errors(const LightAccuracy& light) {
     const oracle::Metrics& m = light.metrics;
     const oracle::FarErrors& far = light.far;
@@ -218,6 +226,7 @@ Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options) 
     if (options.noise_rounds > 1)
         if (auto error = average_noise(stage, options.noise_rounds, indices, accuracy)) return *error;
     trace_truth(stage, options, indices, accuracy);
+    if (auto error = judge_air(stage, indices, accuracy)) return *error;
     if (options.timed_frames > 0) time_lights(stage, options, indices, accuracy);
     accuracy.gl_complaints = stage.gl_complaints();
     return accuracy;

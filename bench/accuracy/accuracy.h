@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/accuracy/air_accuracy.h"
 #include "bench/accuracy/default_limits.h"
 #include "bench/common/median_range.h"
 #include "bench/common/stage.h"
@@ -65,6 +66,7 @@ struct LightAccuracy {
     std::optional<SoftAccuracy> soft;   // accuracy about a source with a size; empty: the light has none
     std::optional<AreaAccuracy> area;   // empty: AccuracyOptions::area_side is 0
     std::optional<TintAccuracy> tint;   // empty: no translucent caster, or the light leaves them out
+    std::optional<AirAccuracy> air;  // accuracy in fog; empty: there is none, or measure_air() cannot judge the light
     Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
     /// Pixels that changed when every view was drawn again; must be 0. Not counted for a mean of noise_rounds.
     std::size_t redrawn_differs = 0;

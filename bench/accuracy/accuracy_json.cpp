@@ -44,6 +44,14 @@ Json to_json(const TintAccuracy& tint) {
             {"mean_error", m.mean_error}, {"tinted_error", m.tinted_error}, {"max_error", m.max_error}};
 }
 
+Json to_json(const AirAccuracy& air) {
+    return {{"places", air.places},
+            {"dark", air.dark},
+            {"wrong", air.wrong},
+            {"ways", air.ways},
+            {"way_error", air.way_error}};
+}
+
 /// Adds the figures that are counted against the truth.
 void add_errors(const LightAccuracy& light, Json& json) {
     const oracle::Metrics& m = light.metrics;
@@ -109,6 +117,7 @@ Json to_json(const LightAccuracy& light) {
     json["soft"] = light.soft ? to_json(*light.soft) : Json(nullptr);
     json["area"] = light.area ? to_json(*light.area) : Json(nullptr);
     json["tint"] = light.tint ? to_json(*light.tint) : Json(nullptr);
+    json["air"] = light.air ? to_json(*light.air) : Json(nullptr);
     json["gpu_us"] = to_json(light.gpu_us);
     json["cpu_us"] = to_json(light.cpu_us);
     return json;

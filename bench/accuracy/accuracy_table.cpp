@@ -100,6 +100,18 @@ void append_tint(const Accuracy& accuracy, std::string& text) {
     }
 }
 
+void append_air(const Accuracy& accuracy, std::string& text) {
+    const auto has_air = [](const LightAccuracy& light) { return light.air.has_value(); };
+    if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), has_air)) return;
+    text += formatted("\n%-18s %8s %8s %8s %8s %8s\n", "in fog", "places", "dark", "wrong%", "ways", "error%");
+    for (const LightAccuracy& light : accuracy.lights) {
+        if (!light.air) continue;
+        const AirAccuracy& air = *light.air;
+        text += formatted("%-18.18s %8zu %8zu %8.4f %8zu %8.4f\n", light.report.name.c_str(), air.places, air.dark,
+                          kPercent * air.fraction(air.wrong), air.ways, kPercent * air.way_error);
+    }
+}
+
 }  // namespace
 
 std::string accuracy_legend() {
@@ -127,7 +139,12 @@ std::string accuracy_legend() {
            "is; widths the places where a penumbra is measured, ratio drawn by true width.\n"
            "Through glass, against what translucent casters let through: error the mean difference over all surfaces,\n"
            "tinted% where the truth is not white, most% the largest of a channel; beyond: pixels off by more than "
-           "1/255.\n";
+           "1/255.\n"
+           "In fog, against a ray from each of 16 places along the view ray of every eighth pixel, both ways: places "
+           "that\n"
+           "the light may reach; dark by rays; ways are view rays with such places, error the mean difference between "
+           "a\n"
+           "way's mean visibilities. Shaders' own text looks up, compiled as C++.\n";
 }
 
 std::string accuracy_table(const Accuracy& accuracy) {
@@ -147,6 +164,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
     append_soft(accuracy, text);
     append_area(accuracy, text);
     append_tint(accuracy, text);
+    append_air(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (light.edges && light.edges->exceptions.beyond() > 0) {
             const oracle::EdgeExceptions& e = light.edges->exceptions;

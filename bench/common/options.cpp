@@ -8,6 +8,7 @@
 #include "bench/frame/frame_times.h"
 #include "bench/judge/judge_pictures.h"
 #include "bench/text/wrap_lines.h"
+#include "sample_game/support/scene/mist.h"
 #include "sample_game/support/scene/open_scene.h"
 
 namespace gnomon::bench {
@@ -69,6 +70,9 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     command.add_option("--out", arguments.out, "with --sweep: folder of the report, and of what it goes on from")
         ->capture_default_str();
     add_area(command, arguments);
+    command
+        .add_option("--mist", arguments.stage.mist_per_m, "fog that takes this share of light per metre, and is judged")
+        ->check(CLI::Range(0.0f, game::kMostMist_per_m));
     command
         .add_option("--noise-rounds", arguments.noise_rounds,
                     "judge the mean of so many frames, each with its own noise, as a still picture's samples have")

@@ -6,6 +6,7 @@
 #include "bench/frame/animate_all.h"
 #include "engine/gl/device_gl45.h"
 #include "gnomon/light.h"
+#include "sample_game/support/scene/mist.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/scene/scene_proxies.h"
@@ -44,6 +45,8 @@ std::optional<Error> Stage::spawn(const StageOptions& options, assets::SceneData
     for (const std::string& setting : options.settings)
         if (auto error = apply_setting(setting)) return error;
     game::provide_proxies(spawned_, world_, library_);
+    ecs::Entity mist = ecs::kNull;
+    game::set_mist(spawned_.bounds_ws, options.mist_per_m, mist, world_);
     for (const game::NamedEntity& light : spawned_.lights)
         if (const auto opened = game::settings_of(world_, light.entity)) opened_.emplace_back(light.entity, *opened);
     if (!options.camera) return std::nullopt;

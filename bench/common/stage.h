@@ -30,6 +30,7 @@ struct StageOptions {
     std::vector<std::string> settings;  // KEY=VALUE, for every light with a shadow
     double time_s = 0.0;                // scene time
     glm::dvec3 offset_m{0.0};           // moves the whole scene
+    float mist_per_m = 0.0f;            // fog in all of the scene, as game::set_mist(); 0: none
 };
 
 /// Frame that the device did not draw.
