@@ -15,7 +15,7 @@ namespace gnomon::bench {
 /// One light in all boxes of fog.
 struct AirAccuracy {
     std::size_t places = 0;  // places that the light may reach: within its range and cone
-    std::size_t dark = 0;    // of these, by rays
+    std::size_t dark = 0;    // places that no ray from the light reaches
     std::size_t wrong = 0;   // more than a half off
     std::size_t ways = 0;    // view rays with such a place
     double way_error = 0.0;  // difference between a way's mean visibilities, mean over all ways

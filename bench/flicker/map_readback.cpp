@@ -7,6 +7,7 @@
 
 #include "bench/flicker/camera_path.h"
 #include "systems/extract/light_facts.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::bench {
@@ -89,6 +90,7 @@ std::optional<Error> ShadowFrames::read_maps() {
     for (std::size_t v = 0; v < drawn.count(); ++v) {
         if (!drawn.has_map(v)) continue;
         const shadow::ShadowView& view = drawn.view(v);
+        if (!knows_filter(shadow::filter_row(shadows_.frame().decisions[view.light].request.map.filter))) continue;
         if (!read_layer(view, drawn.maps[v], drawn.updates[v].reuse, maps_[view.light]))
             return Error{"a depth map cannot be read", stage_.scene_name(), "", "bench.map"};
     }

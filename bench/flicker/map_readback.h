@@ -21,7 +21,8 @@ public:
     /// Errors: "gpu.scene".
     static Result<std::unique_ptr<ShadowFrames>> create(Stage& stage);
 
-    /// Draws the maps for the first active camera placed as `consumer`, and reads those back that were drawn.
+    /// Draws the maps for the first active camera placed as `consumer`, and reads those back that were drawn. Maps of
+    /// filters that knows_filter() denies are not read.
     /// Error: "bench.map" if a map cannot be drawn or read.
     std::optional<Error> run(const ConsumerItem& consumer);
     std::optional<Error> run();  // with the camera as it is

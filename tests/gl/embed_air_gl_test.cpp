@@ -100,7 +100,7 @@ protected:
 
 constexpr Bounds kRoom{{-3.0, 0.02, -3.0}, {3.0, 2.2, 3.0}};
 /// Largest share of wrong places: edges of shadows within a texel, and what bias lifts out of them.
-constexpr double kFewWrong = 0.004;
+constexpr double kFewWrong = 0.003;
 
 TEST_F(EmbedAir, IsLitWhereRaysFindItLit) {
     add_room();

@@ -2,6 +2,7 @@
 # which so has less to compile.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_long LONG LABEL gl TIMEOUT 3600 SOURCES
+    air_accuracy_gl_test.cpp
     antialias_gl_test.cpp
     area_lights_gl_test.cpp
     edge_flicker_gl_test.cpp

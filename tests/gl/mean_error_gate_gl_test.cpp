@@ -30,6 +30,7 @@ struct GateRow {
     std::vector<std::string> settings = {};
     std::optional<LightKind> kind = {};  // kind of all lamps; empty: their own
     std::uint32_t area_side = 0;         // AccuracyOptions::area_side
+    float mist_per_m = 0.0f;             // StageOptions::mist_per_m; above 0: the row judges it
 };
 
 std::vector<GateRow> gate_rows() {
@@ -43,6 +44,7 @@ std::vector<GateRow> gate_rows() {
     for (const LightKind kind : {LightKind::rectangle, LightKind::disc, LightKind::sphere, LightKind::tube})
         rows.push_back({.name = std::string("lamps of kind ") + to_text(kind), .kind = kind});
     rows.push_back({.name = "glass", .scene = "panes"});
+    rows.push_back({.name = "mist", .mist_per_m = 0.06f});
     return rows;
 }
 
@@ -81,6 +83,10 @@ ErrorCounts sums_of(const oracle::TintMetrics& m) {
     const double tinted = sum(m.tinted_error, m.tinted);
     return {m.tinted, whole(tinted), whole(sum(m.mean_error, m.pixels) - tinted), 0};
 }
+/// Sums over places in fog, and over view rays.
+ErrorCounts sums_of(const bench::AirAccuracy& air) {
+    return {air.places, whole(sum(air.way_error, air.ways)), 0, air.wrong};
+}
 
 class MeanErrorGate : public TruthTest {
 protected:
@@ -91,6 +97,7 @@ protected:
         bench::StageOptions options;
         options.size_px = {256, 144};
         options.settings = row.settings;
+        options.mist_per_m = row.mist_per_m;
         if (row.scene) options.scene = row.scene;
         const auto stage = open(options);
         if (!stage) return {};
@@ -102,6 +109,8 @@ protected:
             const auto add = [&](const ErrorCounts& sums) { found[{light.report.name, row.name}] = sums; };
             if (row.area_side > 0) {
                 if (light.area) add(sums_of(light.area->metrics));
+            } else if (row.mist_per_m > 0.0f) {
+                if (light.air) add(sums_of(*light.air));
             } else if (row.scene) {
                 if (light.tint) add(sums_of(light.tint->metrics));
             } else if (light.soft) {
@@ -159,7 +168,7 @@ TEST_F(MeanErrorGate, NoSumIsHigherThanWasRecorded) {
     if (!fell.empty()) std::printf("%zu sums fell, and should stay there: %s\n", fell.size(), how);
 }
 
-TEST_F(MeanErrorGateControls, IsShutByFewerRaysByStairsAndByGlassThatLetsNothingThrough) {
+TEST_F(MeanErrorGateControls, IsShutByFewerRaysByStairsByGlassThatLetsNothingThroughAndByCoarseMapsOfMist) {
     const auto rose = [&](const std::string& name, const char* setting) {
         GateRow row = row_named(name);
         row.settings.push_back(setting);
@@ -173,6 +182,7 @@ TEST_F(MeanErrorGateControls, IsShutByFewerRaysByStairsAndByGlassThatLetsNothing
     EXPECT_THAT(rose("area, antialias=on", "antialias=off"), Contains(HasSubstr("sun, \"area, antialias=on\": wrong")));
     EXPECT_THAT(rose("glass", "translucent_casters=off"), Contains(HasSubstr("is missing")));
     EXPECT_THAT(rose("glass", "resolution=64"), Contains(HasSubstr("spot, \"glass\": wrong")));
+    EXPECT_THAT(rose("mist", "resolution=32"), Contains(HasSubstr("sun, \"mist\": wrong")));
 }
 
 }  // namespace
