@@ -103,11 +103,14 @@ void SceneMeshes::write(std::uint32_t m, gl::CommandList& list) {
     const assets::Mesh& mesh = library_->meshes[m];
     const Uploaded& uploaded = uploaded_[m];
     const std::vector<assets::Vertex>& vertices = *shape(m).vertices;
-    vertex_arrays_.write(kVertices, uploaded.first_vertex, std::span<const assets::Vertex>(vertices), list);
+    // Buffers that never grew hold all that was placed in them, and take no writes.
+    if (vertex_arrays_.is_writable())
+        vertex_arrays_.write(kVertices, uploaded.first_vertex, std::span<const assets::Vertex>(vertices), list);
     texel_scratch_.clear();
     if (colours()) append_colours(mesh, texel_scratch_);
-    if (colours())
+    if (colours() && vertex_arrays_.is_writable())
         vertex_arrays_.write(kColours, uploaded.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
+    if (!triangle_arrays_.is_writable()) return;
     triangle_arrays_.write(kIndices, uploaded.first_triangle, whole_triangles(mesh), list);
     texel_scratch_.clear();
     append_plane_normals(vertices, mesh.indices, texel_scratch_);

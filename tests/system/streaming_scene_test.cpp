@@ -261,6 +261,23 @@ TEST_F(StreamingScene, AListThatWasNotExecutedIsRepeated) {
     for (std::uint32_t m = 0; m < library.materials.size(); ++m) EXPECT_EQ(colour_of(m), glm::vec4(1.0f)) << m;
 }
 
+// Vertices get room and triangles none, and the list with the copies is lost: triangles are still those of the start.
+TEST_F(StreamingScene, AListLostAfterHalfOfTheRoomWasMadeWritesIntoNothingFixed) {
+    std::mt19937_64 random(1);
+    for (std::uint64_t calls = 0; calls < 4; ++calls) {
+        SCOPED_TRACE(calls);
+        start();
+        library.add(random_mesh(random));
+        device.fail_from(device.calls() + calls, gl::Failure::out_of_memory, false);
+        follow(false);
+        device.stop_failing();
+        for (std::uint64_t i = 0; i <= Retry::kFrames; ++i) follow();
+        gpu->provide_caster_triangles();
+        EXPECT_EQ(expect_contents(device, *gpu), calls + 7);
+        EXPECT_THAT(device.findings(), IsEmpty());
+    }
+}
+
 TEST_F(StreamingScene, AnyHistoryLeavesWhatTheLibraryHas) {
     std::mt19937_64 random(print_seed());
     std::vector<std::uint32_t> living;
