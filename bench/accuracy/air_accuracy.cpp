@@ -17,6 +17,9 @@
 namespace gnomon::bench {
 namespace {
 
+constexpr std::uint32_t kStep_px = 8;  // from one view ray to the next, both ways
+constexpr std::uint32_t kPlaces = 16;  // places on each, evenly spread: as many as fog_light.frag looks up
+
 /// View ray before the surface that it meets.
 struct ViewWay {
     glm::dvec3 origin_rel_m{0.0}, along{0.0};  // relative to the camera; unit
@@ -45,8 +48,7 @@ struct LitPlaces {
     std::vector<std::size_t> ways;     // number of places of each way that has any
 };
 
-LitPlaces places_in_fog(const SceneSnapshot& scene, const LightItem& light, const std::vector<ViewWay>& ways,
-                        std::uint32_t per_way) {
+LitPlaces places_in_fog(const SceneSnapshot& scene, const LightItem& light, const std::vector<ViewWay>& ways) {
     const glm::dvec3& anchor_ws_m = scene.consumers.front().position_ws_m;
     LitPlaces lit;
     for (const FogItem& fog : scene.air.fogs) {
@@ -57,8 +59,8 @@ LitPlaces places_in_fog(const SceneSnapshot& scene, const LightItem& light, cons
                 span_in_box(box, fog.half_extent_m, anchor_ws_m + way.origin_rel_m, way.along, way.span);
             if (!(span.from_m < span.to_m)) continue;
             const std::size_t before = lit.points.size();
-            for (std::uint32_t i = 0; i < per_way; ++i) {
-                const double at_m = glm::mix(span.from_m, span.to_m, (i + 0.5) / per_way);
+            for (std::uint32_t i = 0; i < kPlaces; ++i) {
+                const double at_m = glm::mix(span.from_m, span.to_m, (i + 0.5) / kPlaces);
                 const glm::dvec3 place_rel_m = way.origin_rel_m + at_m * way.along;
                 glm::dvec3 to_light;
                 double t_max = 0.0;
@@ -130,15 +132,14 @@ LineSpan span_in_box(const InstanceItem& box, const glm::dvec3& half_extent_m, c
     return span;
 }
 
-Result<std::vector<std::optional<AirAccuracy>>> measure_air(Stage& stage, std::span<const std::uint32_t> lights,
-                                                            const AirSampling& sampling) {
+Result<std::vector<std::optional<AirAccuracy>>> measure_air(Stage& stage, std::span<const std::uint32_t> lights) {
     auto made = ShadowFrames::create(stage);
     if (!made) return made.error();
     ShadowFrames& frames = *made.value();
     if (auto error = frames.run()) return *error;
     const SceneSnapshot& scene = frames.snapshot();
     ConsumerItem camera = scene.consumers.front();
-    camera.viewport_px = glm::max(camera.viewport_px / sampling.step_px, glm::uvec2(1));
+    camera.viewport_px = glm::max(camera.viewport_px / kStep_px, glm::uvec2(1));
     const oracle::ReferenceTracer tracer(scene, stage.library(), camera.position_ws_m);
     const std::vector<ViewWay> ways = view_ways(camera, tracer.trace_primary(camera));
     std::vector<std::optional<AirAccuracy>> found;
@@ -148,7 +149,7 @@ Result<std::vector<std::optional<AirAccuracy>>> measure_air(Stage& stage, std::s
         const auto lookup = frames.exact_light(index);
         if (!lookup) continue;
         const LightItem& light = scene.lights[index];
-        const LitPlaces lit = places_in_fog(scene, light, ways, sampling.places);
+        const LitPlaces lit = places_in_fog(scene, light, ways);
         std::vector<ExactVisibility> shown(lit.points.size());
         lookup->evaluate(lit.points, shown);
         air = judge_places(lit, trace_places(tracer, light, camera.position_ws_m, lit.points), shown);

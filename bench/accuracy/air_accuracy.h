@@ -24,11 +24,6 @@ struct AirAccuracy {
     }
 };
 
-struct AirSampling {
-    std::uint32_t step_px = 8;  // from one view ray to the next, both ways
-    std::uint32_t places = 16;  // places on each, evenly spread, as many as fog passes look up
-};
-
 /// Part of a line, metres from its origin. Empty unless from_m < to_m.
 struct LineSpan {
     double from_m = 0.0, to_m = 0.0;
@@ -41,7 +36,6 @@ LineSpan span_in_box(const InstanceItem& box, const glm::dvec3& half_extent_m, c
 /// Draws the maps for the first camera, and judges these lights in all fog before what it sees: one result for each.
 /// Empty for a light that is left out, and for filters that soften by the source's size, or that cpu_lookup.h does not
 /// know. Errors: those of ShadowFrames.
-Result<std::vector<std::optional<AirAccuracy>>> measure_air(Stage& stage, std::span<const std::uint32_t> lights,
-                                                            const AirSampling& sampling = {});
+Result<std::vector<std::optional<AirAccuracy>>> measure_air(Stage& stage, std::span<const std::uint32_t> lights);
 
 }  // namespace gnomon::bench

@@ -49,7 +49,7 @@ AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_
     add_budget, add_redraws, add_common, add_queries, add_check, add_embed, add_pictures, add_judge, add_edges,
     add_draws;
 
-/// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "time".
+/// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "mist", "time".
 std::optional<Error> complete(Arguments& arguments);
 
 }  // namespace gnomon::bench

@@ -257,6 +257,7 @@ std::optional<Error> complete(Arguments& arguments) {
     const auto offset = parse_offset(arguments.offset);
     if (!offset) return Error{"--offset wants X,Y,Z in metres, not '" + arguments.offset + "'", "", "", "offset"};
     arguments.stage.offset_m = *offset;
+    if (std::isnan(arguments.stage.mist_per_m)) return Error{"--mist wants a number", "", "", "mist"};
     if (!std::isfinite(arguments.stage.time_s)) return Error{"--time wants a finite number", "", "", "time"};
     return std::nullopt;
 }

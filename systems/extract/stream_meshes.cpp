@@ -104,12 +104,13 @@ void SceneMeshes::write(std::uint32_t m, gl::CommandList& list) {
     const Uploaded& uploaded = uploaded_[m];
     const std::vector<assets::Vertex>& vertices = *shape(m).vertices;
     // Buffers that never grew hold all that was placed in them, and take no writes.
-    if (vertex_arrays_.is_writable())
+    if (vertex_arrays_.is_writable()) {
         vertex_arrays_.write(kVertices, uploaded.first_vertex, std::span<const assets::Vertex>(vertices), list);
-    texel_scratch_.clear();
-    if (colours()) append_colours(mesh, texel_scratch_);
-    if (colours() && vertex_arrays_.is_writable())
-        vertex_arrays_.write(kColours, uploaded.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
+        texel_scratch_.clear();
+        if (colours()) append_colours(mesh, texel_scratch_);
+        if (colours())
+            vertex_arrays_.write(kColours, uploaded.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
+    }
     if (!triangle_arrays_.is_writable()) return;
     triangle_arrays_.write(kIndices, uploaded.first_triangle, whole_triangles(mesh), list);
     texel_scratch_.clear();

@@ -54,6 +54,19 @@ class Tables(unittest.TestCase):
         self.assertIn("antialias=off, antialias=on", text)
         self.assertEqual(len([line for line in text.splitlines() if line.startswith("pan ")]), 3)
 
+    def test_fog_has_a_table_that_fits_too(self):
+        text = self.call("accuracy", *SMALL, "--repeat", "0", "--mist", "0.1")
+        self.assertEqual([line for line in text.splitlines() if len(line) > COLUMNS], [])
+        self.assertIn("in fog", text)
+        self.assertNotIn("in fog", self.call("accuracy", *SMALL, "--repeat", "0", "--mist", "0"))
+
+    def test_fog_that_is_no_share_is_refused(self):
+        for mist in ("nan", "-0.1", "10.5", "thick"):
+            done = subprocess.run([self.bench, "accuracy", *SMALL, "--mist", mist], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, timeout=TIMEOUT_S, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, b""), mist)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
     def test_help_has_the_legends(self):
         for name in LEGENDS:
             text = self.call(name, "--help")
