@@ -100,11 +100,14 @@ struct DrawnPlane {
     double at(double u, double v) const { return start + per_u * u + per_v * v; }
 };
 
-DrawnPlane drawn_plane(const ShadowView& view, double size_px, const glm::dvec3& normal, double offset_m) {
-    using Matrix = glm::mat<4, 4, long double>;
-    using Vector = glm::vec<4, long double>;
-    const Matrix map_from_anchor(math::texture_from_clip() * glm::dmat4(view.clip_from_anchor));
-    const Vector plane = glm::inverseTranspose(map_from_anchor) * Vector(glm::dvec4(normal, -offset_m));
+/// Takes planes from around a light's anchor into one view's map, as texture coordinates and depth.
+using PlaneIntoMap = glm::mat<4, 4, long double>;
+PlaneIntoMap plane_into_map(const ShadowView& view) {
+    return glm::inverseTranspose(PlaneIntoMap(math::texture_from_clip() * glm::dmat4(view.clip_from_anchor)));
+}
+
+DrawnPlane drawn_plane(const PlaneIntoMap& into_map, double size_px, const glm::dvec3& normal, double offset_m) {
+    const glm::vec<4, long double> plane = into_map * glm::vec<4, long double>(glm::dvec4(normal, -offset_m));
     return {static_cast<double>(-plane.w / plane.z), static_cast<double>(-plane.x / plane.z) / size_px,
             static_cast<double>(-plane.y / plane.z) / size_px};
 }
@@ -233,13 +236,18 @@ struct LonePlaneLookup::Parts {
     std::unique_ptr<Lookup> lookup;
     PlaneTexels texels;
     std::vector<ShadowView> views;
+    std::vector<PlaneIntoMap> into_maps;  // of `views`
     glm::dvec3 camera_ws_m{0.0};
 };
 
 LonePlaneLookup::LonePlaneLookup(PlaneKind kind, ShadowFilter filter, DepthFormat format) {
     const bool linear = shadow::filter_row(filter).reading == shadow::MapReading::compare_linear;
-    parts_.reset(new Parts{
-        Published(kind, filter, format), compiled(filter)->make[static_cast<std::size_t>(kind)](linear), {}, {}, {}});
+    parts_.reset(new Parts{Published(kind, filter, format),
+                           compiled(filter)->make[static_cast<std::size_t>(kind)](linear),
+                           {},
+                           {},
+                           {},
+                           {}});
     parts_->texels.format = format;
 }
 
@@ -253,16 +261,20 @@ void LonePlaneLookup::set_maps(std::vector<ShadowView> views, std::uint32_t size
     parts_->texels.relative = orthographic ? 0.0 : 3.0 * roundoff;
     parts_->camera_ws_m = camera_ws_m;
     parts_->views = std::move(views);
+    parts_->into_maps.clear();
     std::vector<const ShadowView*> published;
-    for (const ShadowView& view : parts_->views) published.push_back(&view);
+    for (const ShadowView& view : parts_->views) {
+        parts_->into_maps.push_back(plane_into_map(view));
+        published.push_back(&view);
+    }
     parts_->lookup->set(parts_->published.of(parts_->views, size_px, camera_ws_m), published, camera_ws_m);
 }
 
 LonePlaneLookup::Answer LonePlaneLookup::look_up(const LonePlane& plane, double bias_share) const {
     parts_->texels.plane = plane;
-    for (const ShadowView& view : parts_->views)
-        parts_->texels.faces[view.layer] =
-            drawn_plane(view, parts_->texels.size_px, plane.normal, glm::dot(plane.normal, plane.at_m));
+    for (std::size_t i = 0; i < parts_->views.size(); ++i)
+        parts_->texels.faces[parts_->views[i].layer] =
+            drawn_plane(parts_->into_maps[i], parts_->texels.size_px, plane.normal, glm::dot(plane.normal, plane.at_m));
     const glm::dvec3 anchor_from_camera_m = parts_->views[0].pose.anchor_ws_m - parts_->camera_ws_m;
     InstanceItem caster;
     caster.basis = {plane.half_u_m, plane.half_v_m, plane.normal};

@@ -139,7 +139,8 @@ glm::dvec3 sloped_normal(Random& random, const glm::dvec3& to_light, double& tan
 /// Sets the quad of the plane around the receiver, as far off it as the plane is. Rounding on the way to the map does
 /// not matter between the receiver and the casters' corners.
 void show_quad(LonePlane& plane, const glm::dvec3& place_m, const glm::dvec3& to_light, double texel_m) {
-    std::mt19937_64 random(plane.salt);  // what else is random of a plane does not depend on it
+    // A generator of its own, so that the plane's other numbers do not depend on it. A small one: it is made per plane.
+    std::minstd_rand random(static_cast<std::uint32_t>(plane.salt >> 32));
     std::uniform_real_distribution<double> share(-0.5, 0.5);
     const glm::dvec3 off_m = plane.at_m - place_m;
     const double cosine = glm::dot(plane.normal, to_light);
