@@ -118,11 +118,17 @@ void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHi
     soft.metrics = oracle::compare_soft(hits, soft.truth, accuracy.measured);
 }
 
+/// Judges the light by the lit share of pixels' areas, if it shows that or `side` is not 0.
 void judge_area(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& scene,
                 std::uint32_t light, std::uint32_t side, LightAccuracy& accuracy) {
+    const bool shown = scene.lights[light].shadow.antialias &&
+                       shadow::filter_row(accuracy.report.filter.filter).area_shares != shadow::AreaShares::none;
+    if (is_left_out(accuracy.report) || (!shown && side == 0)) return;
     AreaAccuracy& area = accuracy.area.emplace();
-    area.truth = tracer.trace_area(scene.consumers.front(), hits, accuracy.truth, scene.lights[light],
-                                   {.side = side, .of_source = accuracy.soft.has_value()});
+    area.shown = shown;
+    oracle::AreaSampling sampling{.of_source = accuracy.soft.has_value()};
+    if (side > 0) sampling.side = side;
+    area.truth = tracer.trace_area(scene.consumers.front(), hits, accuracy.truth, scene.lights[light], sampling);
     area.metrics = oracle::compare_area(area.truth, accuracy.measured, accuracy.truth.ambiguous);
 }
 
@@ -163,8 +169,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         if (oracle::source_size(light) > 0.0 && !is_left_out(accuracy.lights[k].report))
             judge_source(tracer, hits, light, accuracy.lights[k]);
         judge_tint(stage, hits, light, accuracy.lights[k]);
-        if (options.area_side > 0 && !is_left_out(accuracy.lights[k].report))
-            judge_area(tracer, hits, snapshot, indices[k], options.area_side, accuracy.lights[k]);
+        judge_area(tracer, hits, snapshot, indices[k], options.area_side, accuracy.lights[k]);
     }
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;
@@ -180,8 +185,10 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         const TracedPicture picture{tracer, hits, creases, snapshot, indices[k], light.truth};
         if (pieces) judge_edges(picture, *pieces, bounds, options, light);
         light.far = errors_beyond_texels(picture, bounds, light.measured);
-        if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
-            light.judged = judged_errors(light);
+        const bool shows_shares =
+            (light.area && light.area->shown) ||
+            shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width == shadow::FilterWidth::source;
+        if (!shows_shares) light.judged = judged_errors(light);
     }
 }
 

@@ -35,6 +35,7 @@ struct SoftAccuracy {
 struct AreaAccuracy {
     oracle::AreaTruth truth;
     oracle::AreaMetrics metrics;
+    bool shown = false;  // the light's filter shows these shares, and no edges of pixels' middles
 };
 
 /// Colours that translucent casters let through, against rays.
@@ -60,11 +61,11 @@ struct LightAccuracy {
     oracle::LightTruth truth;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
     oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
-    std::optional<JudgedErrors>
-        judged;  // errors that defaults are judged by; none if the filter softens by the source's size
+    std::optional<JudgedErrors> judged;  // errors that defaults are judged by; none if the filter shows shares: of the
+                                         // source, or of pixels' areas
     std::optional<EdgeAccuracy> edges;  // empty: AccuracyOptions::with_edges is false
     std::optional<SoftAccuracy> soft;   // accuracy about a source with a size; empty: the light has none
-    std::optional<AreaAccuracy> area;   // empty: AccuracyOptions::area_side is 0
+    std::optional<AreaAccuracy> area;   // empty: the filter shows no such shares, and AccuracyOptions::area_side is 0
     std::optional<TintAccuracy> tint;   // empty: no translucent caster, or the light leaves them out
     std::optional<AirAccuracy> air;  // accuracy in fog; empty: there is none, or measure_air() cannot judge the light
     Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
@@ -85,7 +86,9 @@ struct Accuracy {
 struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_edges = false;         // edges are judged, by a square of rays at each, which takes longer than all else
-    std::uint32_t area_side = 0;     // places along the side of a pixel's area, oracle::AreaSampling; 0: no such truth
+    // Places along the side of a pixel's area, oracle::AreaSampling; 0: its default for lights that show areas, others
+    // none
+    std::uint32_t area_side = 0;
     std::uint32_t noise_rounds =
         1;  // number of frames, each with noise of its own (FrameSettings::noise_frame); their mean is judged
     double telling = 1.0;            // factor on predicted texels, see EdgeBounds::at()

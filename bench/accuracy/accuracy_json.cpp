@@ -33,9 +33,9 @@ Json to_json(const SoftAccuracy& soft) {
 
 Json to_json(const AreaAccuracy& area) {
     const oracle::AreaMetrics& m = area.metrics;
-    return {{"crossed_px", m.crossed},  {"mean_error", m.mean_error},      {"bias", m.bias},
-            {"p99_error", m.p99_error}, {"uncrossed_px", m.uncrossed},     {"uncrossed_error", m.uncrossed_error},
-            {"partial_px", m.partial},  {"partial_error", m.partial_error}};
+    return {{"crossed_px", m.crossed},  {"mean_error", m.mean_error},       {"bias", m.bias},
+            {"p99_error", m.p99_error}, {"uncrossed_px", m.uncrossed},      {"uncrossed_error", m.uncrossed_error},
+            {"partial_px", m.partial},  {"partial_error", m.partial_error}, {"shown", area.shown}};
 }
 
 Json to_json(const TintAccuracy& tint) {

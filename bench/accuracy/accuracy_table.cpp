@@ -87,6 +87,12 @@ void append_area(const Accuracy& accuracy, std::string& text) {
         "crossed pixels that show another surface, too.\n";
 }
 
+void append_what_is_shown(const LightAccuracy& light, std::string& text) {
+    if (!light.area || !light.area->shown) return;
+    text += light.report.name +
+            ": antialiased: 'edges by area' judges it, the tables before compare it with pixels' middles.\n";
+}
+
 void append_tint(const Accuracy& accuracy, std::string& text) {
     const auto has_tint = [](const LightAccuracy& light) { return light.tint.has_value(); };
     if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), has_tint)) return;
@@ -165,8 +171,9 @@ std::string accuracy_table(const Accuracy& accuracy) {
     append_area(accuracy, text);
     append_tint(accuracy, text);
     append_air(accuracy, text);
+    for (const LightAccuracy& light : accuracy.lights) append_what_is_shown(light, text);
     for (const LightAccuracy& light : accuracy.lights)
-        if (light.edges && light.edges->exceptions.beyond() > 0) {
+        if (light.edges && light.edges->exceptions.beyond() > 0 && !(light.area && light.area->shown)) {
             const oracle::EdgeExceptions& e = light.edges->exceptions;
             text += formatted(
                 "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "

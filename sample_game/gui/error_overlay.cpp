@@ -60,13 +60,18 @@ bool has_less(const LightReport& light) {
     return light.state == LightState::degraded || light.state == LightState::skipped;
 }
 
+const char* name_of(std::string_view share) {
+    if (share == "source") return "its source";
+    return share == "area" ? "pixels' areas" : "source and areas";
+}
+
 std::string figures(const JudgedLight& light, const LightReport& report) {
     char text[192];
     if (light.soft) {
         const truth::SoftMetrics& m = *light.soft;
-        std::snprintf(text, sizeof text,
-                      "%-14.14s all of its source: mean error %.3f %%, in penumbrae %.2f %%, leak %.3f %%",
-                      light.name.c_str(), 100.0 * m.mean_error, 100.0 * m.penumbra_error, 100.0 * m.umbra_leak);
+        std::snprintf(text, sizeof text, "%-14.14s by %s: mean error %.3f %%, where partly lit %.2f %%, leak %.3f %%",
+                      light.name.c_str(), name_of(light.by), 100.0 * m.mean_error, 100.0 * m.penumbra_error,
+                      100.0 * m.umbra_leak);
         return text;
     }
     if (!light.metrics) {

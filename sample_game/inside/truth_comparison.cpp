@@ -10,20 +10,37 @@
 namespace gnomon::game {
 namespace {
 
-TracedSource source_of(const Light& light, ShadowLayers layers) {
-    return {layers, light.source_radius_m, light.sun_radius_rad, light.width_m, light.height_m};
+TracedSource source_of(const Light& light, const LightShadow& shadow) {
+    return {shadow.layers,        shadow.antialias, light.source_radius_m,
+            light.sun_radius_rad, light.width_m,    light.height_m};
 }
 
-/// Returns whether the light's shadow is drawn by a filter that reads the size of its source.
-bool reads_size(const FrameReport& report, ecs::Entity light) {
-    for (const LightReport& own : report.lights)
-        if (own.entity == light && own.filter.filter != ShadowFilter::automatic)
-            return shadow::filter_row(own.filter.filter).width == shadow::FilterWidth::source;
-    return false;
+/// A share of a light, and its name.
+struct NamedTruth {
+    std::string_view name;
+    const truth::LightTruth& truth;
+};
+
+/// Returns the truth of what the light's filter shows. `reported`: null for a light that has none.
+NamedTruth shown_share(const truth::TracedLight& traced, const LightReport* reported) {
+    const NamedTruth middle{"middle", traced.truth};
+    if (reported == nullptr || reported->filter.filter == ShadowFilter::automatic) return middle;
+    const shadow::FilterRow& row = shadow::filter_row(reported->filter.filter);
+    const bool reads_area = traced.area && row.area_shares != shadow::AreaShares::none;
+    if (row.width != shadow::FilterWidth::source || !traced.source)
+        return reads_area ? NamedTruth{"area", *traced.area} : middle;
+    return reads_area ? NamedTruth{"source_and_area", *traced.source_and_area} : NamedTruth{"source", *traced.source};
 }
 
-nlohmann::ordered_json soft_stats(const std::string& name, const truth::SoftMetrics& m) {
-    return {{"name", name},
+const LightReport* report_of(const FrameReport& report, ecs::Entity light) {
+    const auto own = std::find_if(report.lights.begin(), report.lights.end(),
+                                  [&](const LightReport& one) { return one.entity == light; });
+    return own == report.lights.end() ? nullptr : &*own;
+}
+
+nlohmann::ordered_json share_stats(const JudgedLight& light, const truth::SoftMetrics& m) {
+    return {{"name", light.name},
+            {"judged_by", light.by},
             {"scored_px", m.scored},
             {"false_shadow_px", m.false_shadow},
             {"false_light_px", m.false_light},
@@ -50,7 +67,7 @@ void FrozenFrame::freeze(ecs::Registry& world, const assets::MeshLibrary& librar
         if (!light.has_shadow) continue;
         lights_.push_back({.name = light.name, .entity = light.entity, .metrics = {}, .soft = {}});
         const Light* own = world.get<Light>(light.entity);
-        sources_.push_back(source_of(own ? *own : Light{}, light.shadow.layers));
+        sources_.push_back(source_of(own ? *own : Light{}, light.shadow));
     }
     if (chosen_ && *chosen_ >= lights_.size()) chosen_.reset();
     trace_ = std::make_unique<truth::BackgroundTrace>(scene, library, threads);
@@ -72,7 +89,7 @@ void FrozenFrame::update(Frame& frame, const ecs::Registry& world, glm::uvec2 si
     for (std::size_t i = 0; same && i < lights_.size(); ++i) {
         const LightShadow* shadow = world.get<LightShadow>(lights_[i].entity);
         const Light* own = world.get<Light>(lights_[i].entity);
-        same = shadow && own && source_of(*own, shadow->layers) == sources_[i];
+        same = shadow && own && source_of(*own, *shadow) == sources_[i];
     }
     if (!same) return thaw();
     if (!frame.report().still)
@@ -101,25 +118,21 @@ bool FrozenFrame::judged() const {
 void FrozenFrame::judge(Frame& frame, std::size_t index) {
     JudgedLight& light = lights_[index];
     light.stale = false;
+    light.truth = nullptr;
     light.metrics.reset();
     light.soft.reset();
     if (!frame.read_visibility(light.entity, light.measured)) light.measured.clear();
     const auto& lights = trace_->truth().lights;
     if (index < lights.size() && light.measured.size() == lights[index].truth.visibility.size()) {
-        const truth::TracedLight& traced = lights[index];
-        const truth::LightTruth& truth = traced.truth;
-        if (traced.source && reads_size(frame.report(), light.entity))
-            light.soft = truth::compare_soft(light.measured, traced.source->visibility, traced.source->scored);
-        else
+        const auto [name, truth] = shown_share(lights[index], report_of(frame.report(), light.entity));
+        light.by = name;
+        light.truth = &truth;
+        if (&truth == &lights[index].truth)
             light.metrics = truth::compare({size_px_, light.measured, truth.visibility, truth.scored, truth.ambiguous});
+        else
+            light.soft = truth::compare_soft(light.measured, truth.visibility, truth.scored);
     }
     paint();
-}
-
-const truth::LightTruth* FrozenFrame::truth_of(std::size_t index) const {
-    const truth::TracedLight& traced = trace_->truth().lights[index];
-    if (lights_[index].soft) return &*traced.source;
-    return lights_[index].metrics ? &traced.truth : nullptr;
 }
 
 void FrozenFrame::choose(std::optional<std::size_t> light) {
@@ -132,7 +145,8 @@ void FrozenFrame::choose_next() { choose(chosen_ ? *chosen_ + 1 : 0); }
 void FrozenFrame::paint() {
     std::vector<truth::DrawnLight> shown;
     for (std::size_t i = 0; i < lights_.size(); ++i)
-        if (lights_[i].judged() && (!chosen_ || *chosen_ == i)) shown.push_back({lights_[i].measured, truth_of(i)});
+        if (lights_[i].judged() && (!chosen_ || *chosen_ == i))
+            shown.push_back({lights_[i].measured, lights_[i].truth});
     truth::tint_errors(size_px_, shown, tints_);
     ++version_;
 }
@@ -140,10 +154,11 @@ void FrozenFrame::paint() {
 nlohmann::ordered_json truth_stats(const FrozenFrame& frozen) {
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const JudgedLight& light : frozen.lights()) {
-        if (light.soft) lights.push_back(soft_stats(light.name, *light.soft));
+        if (light.soft) lights.push_back(share_stats(light, *light.soft));
         if (!light.metrics) continue;
         const truth::Metrics& m = *light.metrics;
         lights.push_back({{"name", light.name},
+                          {"judged_by", light.by},
                           {"scored_px", m.scored},
                           {"wrong_px", m.wrong},
                           {"false_shadow_px", m.false_shadow},

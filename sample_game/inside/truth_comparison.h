@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/assets.h"
@@ -20,15 +21,18 @@ struct JudgedLight {
     std::string name;
     ecs::Entity entity;
     std::vector<float> measured = {};       // its visibility, as it is drawn now; empty: not yet read, or unreadable
-    std::optional<truth::Metrics> metrics;  // accuracy of `measured` by the light's middle
-    std::optional<truth::SoftMetrics> soft;  // the same by all of its source, for a filter that reads its size
+    std::string_view by = {};               // share that it is judged by: middle, source, area, source_and_area
+    const truth::LightTruth* truth = nullptr;  // that share; null: not judged
+    std::optional<truth::Metrics> metrics;     // accuracy of `measured` by the light's middle at pixels' middles
+    std::optional<truth::SoftMetrics> soft;    // the same by a share: of its source, of pixels' areas, or of both
     bool stale = true;                       // its visibility has to be read again
-    bool judged() const { return metrics || soft; }
+    bool judged() const { return truth != nullptr; }
 };
 
 /// What the truth about a light depends on, beside its place.
 struct TracedSource {
     ShadowLayers layers{};
+    bool antialias = false;
     float source_radius_m = 0.0f, sun_radius_rad = 0.0f, width_m = 0.0f, height_m = 0.0f;
     bool operator==(const TracedSource&) const = default;
 };
@@ -36,8 +40,8 @@ struct TracedSource {
 /// Frame that stands still while its ray-traced truth is computed, with the errors of its shadows.
 ///
 /// While it is frozen the caller moves neither camera, lights nor casters. Settings of shadows may change: errors are
-/// then computed again, for one light per frame, against the same truth. It is that of the light's middle, or of all
-/// its source where the light's filter reads its size.
+/// then computed again, for one light per frame, against the same truth. It is that of what the light's filter shows:
+/// of the light's middle or of all its source, at pixels' middles or over their areas.
 class FrozenFrame {
 public:
     enum class State : std::uint8_t { off, tracing, shown };
@@ -46,7 +50,7 @@ public:
     void freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px, unsigned threads);
     void thaw();
     /// Judges one light at most, once the trace is finished; never blocks on it. Call after each frame. Ends the freeze
-    /// if the picture's size, or the source or the layers of a light's shadow have changed.
+    /// if the picture's size, or the source, the layers or the antialiasing of a light's shadow have changed.
     void update(Frame& frame, const ecs::Registry& world, glm::uvec2 size_px);
     /// Blocks until the trace is complete and every light is judged, or its visibility proves unreadable.
     void finish(Frame& frame);
@@ -70,8 +74,6 @@ public:
 
 private:
     void judge(Frame& frame, std::size_t index);
-    /// Returns the truth by which a light was judged; null: it was not.
-    const truth::LightTruth* truth_of(std::size_t index) const;
     void paint();
 
     State state_ = State::off;

@@ -3,16 +3,36 @@
 #include <algorithm>
 #include <utility>
 
-#include "systems/truth/source_truth.h"
+#include "systems/truth/light_shares.h"
 
 namespace gnomon::truth {
 namespace {
 
 /// Number of rows that a thread takes at a time: neighbouring places share their walk through the trees.
 constexpr std::uint32_t kRowsAtOnce = 4;
-/// Cost per row: one ray for the surface, five for its light, the few for its source, as many again as a guess at
-/// penumbrae.
-constexpr std::uint64_t kSeeing = 1, kLighting = 5, kFew = kFewSamples, kUndecided = kFewSamples;
+/// Cost per row: one ray for the surface, five for its light, and the few of each share.
+constexpr std::uint64_t kSeeing = 1, kLighting = 5;
+std::uint64_t share_cost(const LightItem& light, bool over_area) {
+    const ShareRays few = share_steps(light, over_area).few;
+    return few.count() + (over_area ? few.places : 0);
+}
+
+/// A share of a light to trace, and where it is put.
+struct Share {
+    std::optional<LightTruth> TracedLight::*member;
+    LightItem light;
+    bool over_area;
+};
+
+/// Returns the shares by which filters of the light may be judged.
+std::vector<Share> shares_of(const LightItem& light) {
+    std::vector<Share> shares;
+    if (has_size(light)) shares.push_back({&TracedLight::source, light, false});
+    if (!light.shadow.antialias) return shares;
+    shares.push_back({&TracedLight::area, as_point(light), true});
+    if (has_size(light)) shares.push_back({&TracedLight::source_and_area, light, true});
+    return shares;
+}
 
 /// Calls work(first_row, rows) for all rows on several threads; `make_work` makes a `work` for each.
 template <class MakeWork>
@@ -42,13 +62,16 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
     if (scene.consumers.empty()) return truth;
     const ConsumerItem& camera = scene.consumers.front();
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}, {}});
+        if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}, {}, {}, {}});
     const std::uint32_t height = camera.viewport_px.y;
-    const auto sized = static_cast<std::uint64_t>(
-        std::count_if(truth.lights.begin(), truth.lights.end(),
-                      [&](const TracedLight& traced) { return has_size(scene.lights[traced.light]); }));
-    state.all =
-        std::max<std::uint64_t>(height * (kSeeing + kLighting * truth.lights.size() + (kFew + kUndecided) * sized), 1);
+    std::uint64_t work_per_row = kSeeing;
+    for (const TracedLight& traced : truth.lights) {
+        work_per_row += kLighting;
+        for (const Share& share : shares_of(scene.lights[traced.light]))
+            work_per_row +=
+                2 * share_cost(share.light, share.over_area);  // as many again for pixels that need many: a guess
+    }
+    state.all = std::max<std::uint64_t>(height * work_per_row, 1);
 
     visibility::CasterTrees trees(library, visibility::TreesOf::casters_and_visible);
     trees.update(scene);
@@ -73,21 +96,25 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
                 trace_rows(scene, light, truth.seen, {row, rows}, queries, traced.truth);
             };
         });
-        if (!has_size(scene.lights[traced.light])) continue;
-        LightTruth& shares = traced.source.emplace();
-        shares.reset(truth.seen.count());
-        const SourceTrace source(scene, scene.lights[traced.light], truth.seen, shares);
-        const auto trace = [&](std::uint64_t work_per_row, const auto& trace_part) {
-            share_rows(height, threads, work_per_row, state, [&] {
-                return [&, queries = visibility::LightQueries(trees)](std::uint32_t row, std::uint32_t rows) mutable {
-                    trace_part(RowRange{row, rows}, queries);
-                };
-            });
-        };
-        trace(kFew, [&](RowRange rows, visibility::LightQueries& queries) { source.trace_few(rows, queries); });
-        const std::vector<float> few = shares.visibility;
-        trace(kUndecided,
-              [&](RowRange rows, visibility::LightQueries& queries) { source.trace_undecided(rows, few, queries); });
+        for (const Share& share : shares_of(scene.lights[traced.light])) {
+            LightTruth& shares = (traced.*share.member).emplace();
+            shares.reset(truth.seen.count());
+            const ShareTrace trace(scene, share.light, truth.seen, share.over_area ? &surfaces : nullptr, shares);
+            const auto trace_rows_by = [&](const auto& trace_part) {
+                share_rows(height, threads, share_cost(share.light, share.over_area), state, [&] {
+                    return
+                        [&, queries = visibility::LightQueries(trees)](std::uint32_t row, std::uint32_t rows) mutable {
+                            trace_part(RowRange{row, rows}, queries);
+                        };
+                });
+            };
+            trace_rows_by([&](RowRange rows, auto& queries) { trace.trace_few(rows, queries); });
+            const LightTruth few = shares;
+            trace_rows_by([&](RowRange rows, auto& queries) { trace.trace_undecided(rows, few, queries); });
+            if (!share.over_area) continue;
+            for (std::size_t i = 0; i < shares.scored.size(); ++i)
+                if (traced.truth.ambiguous[i] != 0) shares.scored[i] = 0;
+        }
     }
     return truth;
 }

@@ -9,13 +9,15 @@
 #include "systems/truth/seen_surfaces.h"
 
 /// Truth about a picture's shadows: surfaces of the first camera, and the visibility of each shadowed light. A filter
-/// is judged by what it shows: of a light with a size that is its middle, or all of its source.
+/// is judged by what it shows: the light's middle or all of its source, at pixels' middles or over their areas.
 namespace gnomon::truth {
 
 struct TracedLight {
     std::uint32_t light = 0;  // index in the snapshot
     LightTruth truth;         // visibility of its middle
     std::optional<LightTruth> source;  // share of its source; empty for a point
+    // The same over pixels' areas, where the middle's is not ambiguous; empty without LightShadow::antialias.
+    std::optional<LightTruth> area, source_and_area;
 };
 
 struct PictureTruth {

@@ -103,21 +103,39 @@ void SeenSurfaces::reset(glm::uvec2 size, const glm::dvec3& camera) {
     normal_ws.assign(pixels, glm::dvec3(0.0));
 }
 
-void SurfaceTracer::trace_row(std::uint32_t row, std::uint32_t& hint, SeenSurfaces& seen) const {
-    const std::uint32_t width = seen.size_px.x;
-    for (std::uint32_t x = 0; x < width; x += rays::kLanes) {
+void SurfaceTracer::trace(std::span<const glm::dvec2> at_px, std::size_t first, std::uint32_t& hint,
+                          SeenSurfaces& seen) const {
+    for (std::size_t done = 0; done < at_px.size(); done += rays::kLanes) {
         rays::RayPacket packet;
-        packet.count = std::min<std::size_t>(rays::kLanes, width - x);
+        packet.count = std::min<std::size_t>(rays::kLanes, at_px.size() - done);
         for (std::size_t i = 0; i < packet.count; ++i) {
-            const PictureRay ray = picture_ray(camera_, glm::dvec2(static_cast<double>(x + i), row));
+            const PictureRay ray = picture_ray(camera_, at_px[done + i]);
             packet.from[i] = ray.from_ws_m;
             packet.along[i] = ray.along;
             packet.first[i] = ray.first;
             packet.last = ray.last;
         }
         const rays::PerLane<Hit> hits = nearest_hits(scene_, trees_, packet, hint);
-        for (std::size_t i = 0; i < packet.count; ++i) put(packet, i, hits[i], std::size_t{row} * width + x + i, seen);
+        for (std::size_t i = 0; i < packet.count; ++i) put(packet, i, hits[i], first + done + i, seen);
     }
+}
+
+void SurfaceTracer::trace_row(std::uint32_t row, std::uint32_t& hint, SeenSurfaces& seen) const {
+    std::vector<glm::dvec2> at_px;
+    for (std::uint32_t x = 0; x < seen.size_px.x; ++x) at_px.emplace_back(x, row);
+    trace(at_px, std::size_t{row} * seen.size_px.x, hint, seen);
+}
+
+void SurfaceTracer::trace(std::span<const glm::dvec2> at_px, std::uint32_t& hint, SeenSurfaces& found) const {
+    found.reset({at_px.size(), 1}, camera_.position_ws_m);
+    trace(at_px, 0, hint, found);
+}
+
+double SurfaceTracer::pixel_width_m(const glm::dvec3& at_ws_m) const {
+    const double height_px = camera_.viewport_px.y;
+    if (camera_.projection == CameraProjection::orthographic) return 2.0 * camera_.half_height_m / height_px;
+    const double depth_m = glm::dot(at_ws_m - camera_.position_ws_m, -camera_.rotation_ws[2]);
+    return 2.0 * std::tan(0.5 * camera_.fov_y_rad) * depth_m / height_px;
 }
 
 }  // namespace gnomon::truth

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "systems/extract/snapshot.h"
@@ -37,8 +38,14 @@ public:
     /// Fills one row of `seen`. Several threads may trace different rows. `hint`: instance to test first, set to an
     /// instance that was hit; it affects only time.
     void trace_row(std::uint32_t row, std::uint32_t& hint, SeenSurfaces& seen) const;
+    /// Fills `found` with what is seen through each place of the picture. `at_px`: integers are pixels' middles.
+    void trace(std::span<const glm::dvec2> at_px, std::uint32_t& hint, SeenSurfaces& found) const;
+    /// Returns the width of a pixel across its ray at a place in the picture, m.
+    double pixel_width_m(const glm::dvec3& at_ws_m) const;
 
 private:
+    void trace(std::span<const glm::dvec2> at_px, std::size_t first, std::uint32_t& hint, SeenSurfaces& seen) const;
+
     const SceneSnapshot& scene_;
     const visibility::CasterTrees& trees_;
     const ConsumerItem& camera_;

@@ -108,6 +108,30 @@ class Truth(GameTest):
                 self.assertAlmostEqual(light[key], theirs, delta=0.1 * theirs + 0.002, msg="%s of %s" % (key, name))
         self.assertGreater(pure(taps_picture, 2), pure(rays_picture, 2) + 100)
 
+    def test_antialiased_edges_are_judged_by_the_lit_share_of_pixels_areas(self):
+        plain, _ = self.judged()
+        smooth, picture = self.judged("--set", "antialias=on")
+        for name, light in smooth.items():
+            self.assertEqual((plain[name]["judged_by"], light["judged_by"]), ("middle", "area"), name)
+            self.assertGreater(light["penumbra_px"], 1000, name)
+            self.assertLess(light["penumbra_error"], 0.1, "a half-lit pixel beside an edge is no error")
+            self.assertLess(light["false_shadow_px"] + light["false_light_px"], 0.01 * light["penumbra_px"], name)
+        shifted, shifted_picture = self.judged("--set", "antialias=on", "--set", "bias=5")
+        self.assertGreater(pure(shifted_picture, 2), pure(picture, 2) + 1000)
+        for name, light in shifted.items():
+            self.assertGreater(light["penumbra_error"], 2.0 * smooth[name]["penumbra_error"], "the control")
+        taps, _ = self.judged("--set", "antialias=on", "--set", "filter=hard")
+        self.assertEqual({light["judged_by"] for light in taps.values()}, {"middle"}, "hard shows no areas")
+        if not LONG:
+            return
+        for name, theirs in self.bench_figures("--set", "antialias=on").items():
+            area = theirs["area"]
+            self.assertTrue(area["shown"], name)
+            crossed = area["crossed_px"] + area["partial_px"]
+            error = (area["crossed_px"] * area["mean_error"] + area["partial_px"] * area["partial_error"]) / crossed
+            self.assertAlmostEqual(smooth[name]["penumbra_px"], crossed, delta=0.03 * crossed, msg=name)
+            self.assertAlmostEqual(smooth[name]["penumbra_error"], error, delta=0.05 * error, msg=name)
+
     def test_a_bias_that_is_wrong_shows_as_false_light_or_as_false_shadow(self):
         fair, fair_picture = self.judged()
         far, far_picture = self.judged("--set", "bias=5")

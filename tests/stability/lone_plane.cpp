@@ -236,7 +236,7 @@ struct LonePlaneLookup::Parts {
     std::unique_ptr<Lookup> lookup;
     PlaneTexels texels;
     std::vector<ShadowView> views;
-    std::vector<PlaneIntoMap> into_maps;  // of `views`
+    std::vector<PlaneIntoMap> into_maps;  // view by view
     glm::dvec3 camera_ws_m{0.0};
 };
 

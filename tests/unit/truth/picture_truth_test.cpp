@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "tests/long_run.h"
+#include "tests/oracle/area_truth.h"
 #include "tests/oracle/reference_tracer.h"
 #include "tests/oracle/soft_truth.h"
 #include "tests/source_paths.h"
@@ -173,6 +174,78 @@ TEST(TruthOfAPicture, OfASourceIsTheReferencesForEachKind) {
     }
 }
 
+/// Lit shares of pixels' areas by two tracers, on surfaces that both count and that no other shares the pixel with.
+struct AreaShares {
+    std::size_t whole = 0, crossed = 0;
+    double off = 0.0, off_in_crossed = 0.0, middle_off_in_crossed = 0.0;
+};
+
+AreaShares area_shares_of(const test::LoadedScene& scene, const TracedLight& traced, const LightTruth& mine,
+                          bool of_source) {
+    const ConsumerItem& camera = scene.snapshot.consumers.front();
+    const LightItem& light = scene.snapshot.lights[traced.light];
+    const oracle::ReferenceTracer reference(scene.snapshot, scene.library, camera.position_ws_m, kThreads);
+    const oracle::PrimaryHits hits = reference.trace_primary(camera);
+    const oracle::AreaTruth expected = reference.trace_area(
+        camera, hits, reference.trace_light(hits, as_point(light), true), light, {.of_source = of_source});
+    AreaShares shares;
+    for (std::size_t i = 0; i < expected.lit.size(); ++i) {
+        if (expected.area[i] != oracle::PixelArea::whole || mine.scored[i] == 0) continue;
+        const float share = expected.lit[i];
+        const double off = std::abs(mine.visibility[i] - share);
+        ++shares.whole;
+        shares.off += off;
+        if (share <= 0.0f || share >= 1.0f) continue;
+        ++shares.crossed;
+        shares.off_in_crossed += off;
+        shares.middle_off_in_crossed += std::abs(traced.truth.visibility[i] - share);
+    }
+    return shares;
+}
+
+void expect_agreement(const AreaShares& shares, double most_in_crossed) {
+    const auto whole = static_cast<double>(shares.whole), crossed = static_cast<double>(shares.crossed);
+    EXPECT_GT(shares.whole, 1000u);
+    EXPECT_GT(shares.crossed, 100u);
+    EXPECT_LT(shares.off - shares.off_in_crossed, 0.0001 * whole) << "where no edge crosses";
+    EXPECT_LT(shares.off_in_crossed, most_in_crossed * crossed);
+    EXPECT_GT(shares.middle_off_in_crossed, 5.0 * shares.off_in_crossed) << "the control: pixels' middles alone";
+    std::printf("off: %.6f where no edge crosses, %.4f where one does, %.3f by the middle\n",
+                (shares.off - shares.off_in_crossed) / whole, shares.off_in_crossed / crossed,
+                shares.middle_off_in_crossed / crossed);
+}
+
+TEST(TruthOfAPicture, OfPixelsAreasIsTheReferences) {
+    const auto scene = load(std::nullopt, 3.0);
+    scene->move_to(3.0, kSize_px / 2u);
+    LightItem& lantern = scene->snapshot.lights[1];
+    lantern.shadow.antialias = true;
+    const PictureTruth points = traced(*scene);
+    EXPECT_FALSE(points.lights[0].area) << "no antialiased edges";
+    ASSERT_TRUE(points.lights[1].area);
+    EXPECT_FALSE(points.lights[1].source_and_area) << "a point has none";
+    expect_agreement(area_shares_of(*scene, points.lights[1], *points.lights[1].area, false), 0.002);
+    lantern.source_radius_m = 0.1f;
+    const PictureTruth sized = traced(*scene);
+    EXPECT_EQ(sized.lights[1].area->visibility, points.lights[1].area->visibility) << "the middle's";
+    ASSERT_TRUE(sized.lights[1].source_and_area);
+    expect_agreement(area_shares_of(*scene, sized.lights[1], *sized.lights[1].source_and_area, true), 0.025);
+}
+
+TEST(TruthOfAPicture, OfPixelsAreasIsTheSameOnOneThread) {
+    const auto scene = load(std::nullopt, 3.0);
+    scene->move_to(3.0, kSize_px / 4u);
+    LightItem& lantern = scene->snapshot.lights[1];
+    lantern.shadow.antialias = true;
+    lantern.source_radius_m = 0.1f;
+    TraceState state;
+    const PictureTruth one = trace_picture(scene->snapshot, scene->library, 1, state), two = traced(*scene);
+    for (const auto share : {&TracedLight::area, &TracedLight::source_and_area}) {
+        EXPECT_EQ((one.lights[1].*share)->visibility, (two.lights[1].*share)->visibility);
+        EXPECT_EQ((one.lights[1].*share)->scored, (two.lights[1].*share)->scored);
+    }
+}
+
 TEST(TruthOfAPicture, OfSponzaIsTheReferences) {
     const auto scene = load(kSponza, 0.0);
     if (!scene) GTEST_SKIP() << kSponza << " is not there";
@@ -195,8 +268,12 @@ TEST(TruthOfAPicture, OfWhatIsBentIsTheReferencesAndOfItsRestIsNot) {
 TEST(TruthOfAPicture, WithoutACasterEverythingInReachIsLit) {
     const auto scene = load(std::nullopt, 3.0);
     for (InstanceItem& item : scene->snapshot.instances) item.casts = false;
+    for (LightItem& light : scene->snapshot.lights) light.shadow.antialias = true;
     const PictureTruth truth = traced(*scene);
     std::size_t scored = 0;
+    for (const TracedLight& light : truth.lights)
+        for (std::size_t i = 0; i < truth.seen.count(); ++i)
+            ASSERT_TRUE(light.area->scored[i] == 0 || light.area->visibility[i] == 1.0f);
     for (const TracedLight& light : truth.lights)
         for (std::size_t i = 0; i < truth.seen.count(); ++i) {
             if (light.truth.scored[i] == 0) continue;
