@@ -36,7 +36,7 @@ std::vector<glm::dvec3> corners_of(const ConsumerItem& c) {
     const bool flat_view = c.projection == CameraProjection::orthographic;
     for (const double z : {c.near_m, c.far_m})
         for (const glm::dvec2 side : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-            const double half_y = flat_view ? c.half_height_m : z * std::tan(0.5 * c.fov_y_rad);
+            const double half_y = half_extent(c).y * (flat_view ? 1.0 : z);
             corners.push_back(c.position_ws_m - c.rotation_ws[2] * z +
                               c.rotation_ws[0] * (side.x * half_y * aspect(c)) + c.rotation_ws[1] * (side.y * half_y));
         }

@@ -24,11 +24,9 @@ constexpr std::array kPaths{CameraPath{"pan", "turns by 60 degrees about the ver
                             CameraPath{"roll", "rolls once about its own axis"},
                             CameraPath{"zoom", "zooms in to half the angle's tangent"}};
 
-double tan_half(const ConsumerItem& c) { return std::tan(0.5 * c.fov_y_rad); }
-
 /// Returns half the height of what the camera sees at a depth before it.
 double half_height_m(const ConsumerItem& c, double depth_m) {
-    return c.projection == CameraProjection::orthographic ? c.half_height_m : depth_m * tan_half(c);
+    return half_extent(c).y * (c.projection == CameraProjection::orthographic ? 1.0 : depth_m);
 }
 
 /// Returns a point right of, above and behind the camera.
@@ -67,7 +65,7 @@ ConsumerItem on_path(const ConsumerItem& start, std::string_view path, double sh
         c.rotation_ws = glm::mat3_cast(turn) * start.rotation_ws;
     } else {
         const double scale = std::pow(kZoom, -share);
-        c.fov_y_rad = 2.0 * std::atan(tan_half(start) * scale);
+        c.fov_y_rad = 2.0 * std::atan(std::tan(0.5 * start.fov_y_rad) * scale);
         c.half_height_m *= scale;
     }
     return c;
@@ -98,7 +96,7 @@ double pixel_width_m(const ConsumerItem& c, const glm::dvec3& point_ws_m) {
 
 oracle::ExactRay ray_through(const ConsumerItem& c, const glm::dvec2& place, const glm::dvec3& origin_ws_m) {
     const bool flat = c.projection == CameraProjection::orthographic;
-    const double half_y = flat ? c.half_height_m : tan_half(c);
+    const double half_y = half_extent(c).y;
     const glm::dvec3 lateral =
         c.rotation_ws[0] * (place.x * half_y * aspect(c)) + c.rotation_ws[1] * (place.y * half_y);
     const glm::dvec3 start = c.position_ws_m - origin_ws_m;

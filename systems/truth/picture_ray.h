@@ -1,9 +1,8 @@
 #pragma once
-#include <cmath>
 #include <glm/vec2.hpp>
 #include <limits>
 
-#include "systems/extract/snapshot.h"
+#include "systems/extract/volumes.h"
 
 namespace gnomon::truth {
 
@@ -18,7 +17,7 @@ inline PictureRay picture_ray(const ConsumerItem& camera, const glm::dvec2& at_p
     const glm::dvec2 size(camera.viewport_px);
     const glm::dvec2 ndc = 2.0 * (at_px + 0.5) / size - 1.0;
     const bool perspective = camera.projection == CameraProjection::perspective;
-    const double half_height = perspective ? std::tan(0.5 * camera.fov_y_rad) : camera.half_height_m;
+    const double half_height = half_extent(camera).y;
     const glm::dvec3 across =
         camera.rotation_ws[0] * (ndc.x * half_height * size.x / size.y) + camera.rotation_ws[1] * (ndc.y * half_height);
     const glm::dvec3 forward = -camera.rotation_ws[2];

@@ -132,10 +132,8 @@ void SurfaceTracer::trace(std::span<const glm::dvec2> at_px, std::uint32_t& hint
 }
 
 double SurfaceTracer::pixel_width_m(const glm::dvec3& at_ws_m) const {
-    const double height_px = camera_.viewport_px.y;
-    if (camera_.projection == CameraProjection::orthographic) return 2.0 * camera_.half_height_m / height_px;
-    const double depth_m = glm::dot(at_ws_m - camera_.position_ws_m, -camera_.rotation_ws[2]);
-    return 2.0 * std::tan(0.5 * camera_.fov_y_rad) * depth_m / height_px;
+    if (camera_.projection == CameraProjection::orthographic) return pixel_footprint(camera_);
+    return pixel_footprint(camera_) * glm::dot(at_ws_m - camera_.position_ws_m, -camera_.rotation_ws[2]);
 }
 
 }  // namespace gnomon::truth

@@ -22,8 +22,8 @@ double size_rad(const math::Aabb& box, const glm::dvec3& eye_ws_m) {
 
 /// Returns the distance of the near plane's farthest corner from the camera.
 double near_reach_m(const ConsumerItem& camera) {
-    const double tan_y = std::tan(0.5 * camera.fov_y_rad), tan_x = tan_y * aspect(camera);
-    return camera.near_m * std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y);
+    const glm::dvec2 half = half_extent(camera);
+    return camera.near_m * std::sqrt(1.0 + half.x * half.x + half.y * half.y);
 }
 
 /// Returns the instance's occluder; with an empty box if it is none.

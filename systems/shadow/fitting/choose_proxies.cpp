@@ -117,8 +117,8 @@ double proxy_bound_of(const ConsumerItem& consumer, double allowed_px) {
     const double metre_px = kTwice * kSteepestReceiver / pixel_footprint(consumer);
     if (consumer.projection != CameraProjection::perspective) return allowed_px / metre_px;
     // At a distance d the view depth is d / k or more, and a metre covers k / depth footprints or fewer.
-    const double tan_y = std::tan(0.5 * consumer.fov_y_rad), tan_x = tan_y * aspect(consumer);
-    return allowed_px / (metre_px * (1.0 + tan_x * tan_x + tan_y * tan_y));
+    const glm::dvec2 half = half_extent(consumer);
+    return allowed_px / (metre_px * (1.0 + half.x * half.x + half.y * half.y));
 }
 
 void choose_proxies(const SceneSnapshot& scene, const MapSettings& map, ShadowView& view,

@@ -45,8 +45,8 @@ public:
     explicit PixelsPerMetre(const ConsumerItem& consumer)
         : perspective_(is_perspective(consumer)), footprint_(pixel_footprint(consumer)) {
         if (!perspective_) return;
-        const double tan_y = std::tan(0.5 * consumer.fov_y_rad), tan_x = tan_y * aspect(consumer);
-        slant_ = std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y);
+        const glm::dvec2 half = half_extent(consumer);
+        slant_ = std::sqrt(1.0 + half.x * half.x + half.y * half.y);
     }
     double at(double depth_m) const { return perspective_ ? slant_ / (depth_m * footprint_) : 1.0 / footprint_; }
 

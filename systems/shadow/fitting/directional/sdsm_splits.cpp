@@ -35,8 +35,7 @@ Counted counted(const SampledSplit& split) {
     Counted bins;
     bins.perspective = split.consumer.projection == CameraProjection::perspective;
     bins.whole = split.whole;
-    const double half = bins.perspective ? std::tan(0.5 * split.consumer.fov_y_rad) : split.consumer.half_height_m;
-    bins.view_width = 2.0 * half * std::hypot(1.0, aspect(split.consumer));
+    bins.view_width = 2.0 * half_extent(split.consumer).y * std::hypot(1.0, aspect(split.consumer));
     bins.width_m = split.width_m;
     for (std::uint32_t bin = 0; bin < kDepthBins; ++bin) {
         const double start_m = step_size(static_cast<int>(bin) + kFirstDepthStep);

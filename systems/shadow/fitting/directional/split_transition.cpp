@@ -17,7 +17,7 @@ constexpr double kGlide = kMostFade / 2.0, kHastyGlide = kMostFade / 4.0;
 /// The change is linear across the view, so that a corner has the most.
 double carried_m(const SplitHistory& previous, const ConsumerItem& now, double distance_m) {
     const bool flat = now.projection == CameraProjection::orthographic;
-    const double half_y = flat ? now.half_height_m : distance_m * std::tan(0.5 * now.fov_y_rad);
+    const double half_y = half_extent(now).y * (flat ? 1.0 : distance_m);
     double most = 0.0;
     for (const double x : {-half_y, half_y})
         for (const double y : {-half_y, half_y}) {
