@@ -65,25 +65,55 @@ const char* name_of(std::string_view share) {
     return share == "area" ? "pixels' areas" : "source and areas";
 }
 
-std::string figures(const JudgedLight& light, const LightReport& report) {
-    char text[192];
+/// Lights with a line of their own. More would hide the picture.
+constexpr std::size_t kMostLines = 12;
+
+/// Returns the lights that get a line, in the frame's order: the chosen one, and those that err most. `others` counts
+/// the rest that reach a pixel.
+std::vector<std::size_t> listed(const FrozenFrame& frozen, std::size_t& others) {
+    const std::vector<JudgedLight>& lights = frozen.lights();
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (!lights[i].judged() || lights[i].scored() > 0 || frozen.chosen() == i) found.push_back(i);
+    std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+        const bool a_chosen = frozen.chosen() == a, b_chosen = frozen.chosen() == b;
+        return a_chosen != b_chosen ? a_chosen : lights[a].wrong() > lights[b].wrong();
+    });
+    others = found.size() - std::min(found.size(), kMostLines);
+    found.resize(found.size() - others);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// Columns before a light's figures: its name, cut where the picture is narrow.
+int name_width(const FrozenFrame& frozen, const std::vector<std::size_t>& lights, float width_px) {
+    constexpr float kLeast = 14.0f, kMost = 32.0f, kFigures = 72.0f;
+    const float room = width_px / ImGui::CalcTextSize("m").x - kFigures;
+    std::size_t longest = 0;
+    for (const std::size_t i : lights) longest = std::max(longest, frozen.lights()[i].name.size());
+    return static_cast<int>(std::clamp(std::min(static_cast<float>(longest), room), kLeast, kMost));
+}
+
+std::string figures(const JudgedLight& light, const LightReport& report, int width) {
+    char text[224];
     if (light.soft) {
         const truth::SoftMetrics& m = *light.soft;
-        std::snprintf(text, sizeof text, "%-14.14s by %s: mean error %.3f %%, where partly lit %.2f %%, leak %.3f %%",
-                      light.name.c_str(), name_of(light.by), 100.0 * m.mean_error, 100.0 * m.penumbra_error,
-                      100.0 * m.umbra_leak);
+        std::snprintf(text, sizeof text, "%-*.*s by %s: mean error %.3f %%, where partly lit %.2f %%, leak %.3f %%",
+                      width, width, light.name.c_str(), name_of(light.by), 100.0 * m.mean_error,
+                      100.0 * m.penumbra_error, 100.0 * m.umbra_leak);
         return text;
     }
     if (!light.metrics) {
-        std::snprintf(text, sizeof text, "%-14.14s %s", light.name.c_str(),
+        std::snprintf(text, sizeof text, "%-*.*s %s", width, width, light.name.c_str(),
                       light.stale ? "is being read" : "its visibility cannot be read");
         return text;
     }
     const truth::Metrics& m = *light.metrics;
     const auto percent = [&](std::size_t pixels) { return 100.0 * m.fraction(pixels); };
-    std::snprintf(text, sizeof text, "%-14.14s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f %s", light.name.c_str(),
-                  percent(m.wrong), percent(m.false_shadow), percent(m.false_light), percent(m.acne), percent(m.leak),
-                  m.edge.max_px, report.predicted_error_px, has_less(report) ? reason_code(report.reason) : "");
+    std::snprintf(text, sizeof text, "%-*.*s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f %s", width, width,
+                  light.name.c_str(), percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
+                  percent(m.acne), percent(m.leak), m.edge.max_px, report.predicted_error_px,
+                  has_less(report) ? reason_code(report.reason) : "");
     return text;
 }
 
@@ -110,20 +140,26 @@ void draw_progress(const FrozenFrame& frozen, glm::vec2 size_px) {
 
 void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec2 size_px) {
     Words words;
+    std::size_t others = 0;
+    const std::vector<std::size_t> lights = listed(frozen, others);
+    const int width = name_width(frozen, lights, size_px.x);
     words.add("against ray-traced truth, frozen: F5 goes on, F2 shows the next light");
     char head[128];
-    std::snprintf(head, sizeof head, "  %-14s %8s %8s %8s %8s %8s %7s %9s", "light", "wrong %", "f.shad %", "f.lit %",
-                  "acne %", "leak %", "edge px", "predicted");
+    std::snprintf(head, sizeof head, "  %-*s %8s %8s %8s %8s %8s %7s %9s", width, "light", "wrong %", "f.shad %",
+                  "f.lit %", "acne %", "leak %", "edge px", "predicted");
     words.add(head);
     words.add(frozen.chosen() ? "  each pixel's worst" : "> each pixel's worst", frozen.chosen() ? kInk : kChosen);
-    for (std::size_t i = 0; i < frozen.lights().size(); ++i) {
+    for (const std::size_t i : lights) {
         const JudgedLight& light = frozen.lights()[i];
         const auto of = std::find_if(report.lights.begin(), report.lights.end(),
                                      [&](const LightReport& other) { return other.entity == light.entity; });
         const bool chosen = frozen.chosen() == i;
-        words.add((chosen ? "> " : "  ") + figures(light, of == report.lights.end() ? LightReport{} : *of),
+        words.add((chosen ? "> " : "  ") + figures(light, of == report.lights.end() ? LightReport{} : *of, width),
                   chosen ? kChosen : kInk);
     }
+    if (others > 0) words.add("  " + std::to_string(others) + " more err no more than these");
+    if (lights.size() + others < frozen.lights().size())
+        words.add("  " + std::to_string(frozen.lights().size() - lights.size() - others) + " more reach no pixel");
     const float legend_px = ImGui::GetTextLineHeight() + 2.0f * kAir_px;
     const ImVec2 below = words.draw(size_px, legend_px);
     draw_legend({below.x, below.y + kAir_px});

@@ -55,6 +55,12 @@ nlohmann::ordered_json share_stats(const JudgedLight& light, const truth::SoftMe
 
 }  // namespace
 
+double JudgedLight::wrong() const {
+    if (metrics) return metrics->fraction(metrics->wrong);
+    return scored() == 0 ? 0.0
+                         : static_cast<double>(soft->false_shadow + soft->false_light) / static_cast<double>(scored());
+}
+
 void FrozenFrame::freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px,
                          unsigned threads) {
     thaw();
@@ -140,7 +146,11 @@ void FrozenFrame::choose(std::optional<std::size_t> light) {
     if (state_ == State::shown) paint();
 }
 
-void FrozenFrame::choose_next() { choose(chosen_ ? *chosen_ + 1 : 0); }
+void FrozenFrame::choose_next() {
+    std::size_t next = chosen_ ? *chosen_ + 1 : 0;
+    while (next < lights_.size() && lights_[next].judged() && lights_[next].scored() == 0) ++next;
+    choose(next);
+}
 
 void FrozenFrame::paint() {
     std::vector<truth::DrawnLight> shown;

@@ -27,6 +27,10 @@ struct JudgedLight {
     std::optional<truth::SoftMetrics> soft;    // the same by a share: of its source, of pixels' areas, or of both
     bool stale = true;                       // its visibility has to be read again
     bool judged() const { return truth != nullptr; }
+    /// Returns the number of pixels that it is judged at, 0 before it is.
+    std::size_t scored() const { return metrics ? metrics->scored : soft ? soft->scored : 0; }
+    /// Returns the share of them that are off by more than a half.
+    double wrong() const;
 };
 
 /// What the truth about a light depends on, beside its place.
@@ -64,7 +68,7 @@ public:
     /// Returns the light with the errors that are shown; empty: each pixel's worst.
     std::optional<std::size_t> chosen() const { return chosen_; }
     void choose(std::optional<std::size_t> light);
-    void choose_next();  // the worst, then one light after the other
+    void choose_next();  // the worst, then one light after the other; without those that reach no pixel
 
     /// Returns tint_errors() of the chosen light, size_px() large; empty until a light was judged. version() grows with
     /// each change.
