@@ -238,6 +238,26 @@ TEST_F(Budgets, GiveBackWhenThereIsRoom) {
     for (const LightReport& light : level->frame->report().lights) EXPECT_FALSE(light.budget) << light.name;
 }
 
+/// While all maps become smaller in one frame, the first of them has no room beside those that are still large.
+TEST_F(Budgets, ThatFallLeaveEachLightTheShadowThatStillHasRoom) {
+    start();
+    level->look_down();
+    for (int i = 0; i < kSettled; ++i) level->step();
+    std::size_t smaller = 0;
+    for (std::uint64_t bytes = kBytes / 2; bytes >= kBytes / 32; bytes /= 2) {
+        level->settings.shadow_budget = {bytes, 0.0f};
+        std::map<std::string, std::uint64_t> before;
+        for (const LightReport& light : level->frame->report().lights) before[light.name] = light.counts.bytes;
+        for (const LightReport& light : level->step().lights) {
+            const bool is_granted = light.budget && light.budget->px > 0;
+            EXPECT_FALSE(is_granted && light.counts.bytes == 0) << light.name << ", of " << bytes;
+            smaller += light.counts.bytes > 0 && light.counts.bytes < before[light.name] ? 1 : 0;
+        }
+        EXPECT_LE(device.map_bytes(), bytes);
+    }
+    EXPECT_GT(smaller, 20u);
+}
+
 TEST_F(Budgets, ThatHoldEverythingChangeNothing) {
     TimedDevice other_device;
     Level other(other_device, 100);

@@ -230,7 +230,7 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     return Reason::none;
 }
 
-bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached) {
+bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, bool shrinks, CachedMap& cached) {
     gl::TextureDesc desc = map_desc(light, request);
     if (shares_layers_) {
         const std::uint32_t class_px = std::bit_ceil(std::max(desc.width, kLeastSharedEdge_px));
@@ -261,15 +261,16 @@ bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, 
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
         if (halving > 0 && fits && cached.texture && desc.width <= cached.desc.width) break;  // no larger
         const PrefilterDescs moments = moments_of(desc, request.map);
-        const bool has_room = make_room(
-            map_bytes(desc, storage, references_of(request).format(), moments.texture, moments.scratch), &cached);
-        Reason reason = has_room ? try_create(desc, request, cached) : Reason::map_allocation_failed;
-        if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
+        const std::uint64_t needed_bytes =
+            map_bytes(desc, storage, references_of(request).format(), moments.texture, moments.scratch);
+        const bool has_room = make_room(needed_bytes, &cached) || shrinks;
+        Reason reason = has_room ? try_create(desc, request, cached) : Reason::over_budget;
+        if (reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
             spare_->release();
             device_.finish();  // only then does the driver return what was freed
             reason = try_create(desc, request, cached);
         }
-        refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
+        refused_ = refused_ || reason == Reason::map_allocation_failed;
         if (reason == Reason::none) {
             if (halving > 0) cached.allocation.failure = Reason::map_shrunk;
             break;
@@ -330,7 +331,8 @@ void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
             if (wants_map(i)) wanted_bytes += map_bytes(scene.lights[i], decisions[i].request);
         evict_unseen(wanted_bytes);
     }
-    // Within a limit, maps that become smaller are replaced first, so that the others find room.
+    // Within a limit, maps that become smaller are replaced first, so that the others find room. These need none: where
+    // the limit fell, all of them together come to lie below it.
     const bool limited = limit_ != kNoLimit;
     if (limited) make_room(0, nullptr);
     for (int round = 0; round < (limited ? 2 : 1); ++round)
@@ -341,7 +343,7 @@ void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
             CachedMap& cached = entry(scene.lights[i].entity);
             const bool first = !limited || map_bytes(scene.lights[i], request) < bytes(cached);
             if (first != (round == 0)) continue;
-            if (ensure_map(scene.lights[i], request, cached)) continue;
+            if (ensure_map(scene.lights[i], request, limited && first, cached)) continue;
             accounts.statuses[i].lose_maps(cached.allocation.failure, request.rays.used);
         }
     if (!std::exchange(refused_, false)) return;

@@ -171,7 +171,9 @@ private:
     void keep_or_release(ecs::Entity light, Reason skip);
     void provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
                       const LightAccounts& accounts);
-    bool ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached);
+    /// Gives the light a map as requested, or the largest there is room for. Returns false without any. `shrinks`: it
+    /// needs no more room than what is cached.
+    bool ensure_map(const LightItem& light, const ShadowRequest& request, bool shrinks, CachedMap& cached);
     void release_static_copy(StaticCopy& still) const;
     bool is_copy_idle(const CachedMap& map) const;
     Reason try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& cached);
