@@ -68,8 +68,8 @@ const char* name_of(std::string_view share) {
 /// Lights with a line of their own. More would hide the picture.
 constexpr std::size_t kMostLines = 12;
 
-/// Returns the lights that get a line, in the frame's order: the chosen one, and those that err most. `others` counts
-/// the rest that reach a pixel.
+/// Returns the lights with a line, in the frame's order: the chosen one, then the worst. `others` counts further lights
+/// that reach a pixel.
 std::vector<std::size_t> listed(const FrozenFrame& frozen, std::size_t& others) {
     const std::vector<JudgedLight>& lights = frozen.lights();
     std::vector<std::size_t> found;

@@ -68,7 +68,7 @@ public:
     /// Returns the light with the errors that are shown; empty: each pixel's worst.
     std::optional<std::size_t> chosen() const { return chosen_; }
     void choose(std::optional<std::size_t> light);
-    void choose_next();  // the worst, then one light after the other; without those that reach no pixel
+    void choose_next();  // each pixel's worst, then each light that reaches a pixel
 
     /// Returns tint_errors() of the chosen light, size_px() large; empty until a light was judged. version() grows with
     /// each change.

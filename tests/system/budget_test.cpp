@@ -238,7 +238,8 @@ TEST_F(Budgets, GiveBackWhenThereIsRoom) {
     for (const LightReport& light : level->frame->report().lights) EXPECT_FALSE(light.budget) << light.name;
 }
 
-/// While all maps become smaller in one frame, the first of them has no room beside those that are still large.
+/// Halves the budget from frame to frame. The first map to become smaller has no room beside others that are still
+/// large.
 TEST_F(Budgets, ThatFallLeaveEachLightTheShadowThatStillHasRoom) {
     start();
     level->look_down();

@@ -260,7 +260,11 @@ void set_warped_matrices(ShadowView& view) {
 
 ShadowView warped_view(const CascadeInput& input, double strength, const OrthographicBox& tight) {
     const WarpSearch search(input, strength);
-    return search.view(search.best(), tight);
+    const Candidate best = search.best();
+    // The corners of a speck may round to one place beside the warp's anchor.
+    if (!(std::min(best.extent_m.x, best.extent_m.y) > 0.0))
+        return orthographic_view(tight, input.light.request.map.resolution_px);
+    return search.view(best, tight);
 }
 
 }  // namespace gnomon::shadow

@@ -121,6 +121,21 @@ TEST(WarpedFit, TheWorstTexelIsHardlyEverLargerThanWithoutAWarp) {
     EXPECT_GT(warped, 40);
 }
 
+/// Fits a receiver so small that its corners round to one place beside the warp's anchor.
+TEST(WarpedFit, OfASpeckIsTheTightOne) {
+    const auto speck = [](float warp) {
+        SceneSnapshot scene = floor_scene(1.5, warp);
+        scene.instances.resize(1);
+        scene.instances[0].bounds_ws = {{0.0, -1.0, -12.0}, {1e-24, -1.0, -12.0}};
+        scene.lights[0].rotation_ws = math::basis_from_back({0.0, 1.0, 0.0});
+        return scene;
+    };
+    const ShadowFrame warped = fitted(speck(1.0f)), tight = fitted(speck(0.0f));
+    ASSERT_EQ(warped.fitted.views.size(), 1u);
+    EXPECT_EQ(warped.fitted.views[0].map_from_anchor, tight.fitted.views.at(0).map_from_anchor);
+    EXPECT_TRUE(std::isfinite(warped.fitted.views[0].map_from_anchor[0][0]));
+}
+
 TEST(WarpedFit, WhatCannotBeWarpedSaysSo) {
     SceneSnapshot scene = floor_scene(1.5, 1.0f);
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::none);
