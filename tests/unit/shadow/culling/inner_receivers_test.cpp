@@ -59,8 +59,14 @@ TEST_P(InnerReceivers, FitsAreThoseOfAllReceiversClipped) {
                 for (int row = 0; row < 4; ++row)
                     EXPECT_NEAR(one.clip_from_anchor[column][row], other.clip_from_anchor[column][row],
                                 1e-5 * std::abs(other.clip_from_anchor[column][row]) + 1e-6);
-            EXPECT_NEAR(one.error.extent_px, other.error.extent_px, 1e-9 * other.error.extent_px);
-            EXPECT_NEAR(one.error.texel_m, other.error.texel_m, 1e-9 * other.error.texel_m);
+            // Corners outside of a view do not count. With several views side by side they are other ones than those of
+            // all receivers, so that the largest texel along the views' border is another.
+            const bool beside = GetParam() != LightKind::directional && all.fitted.views.size() > 1;
+            const double least = beside ? 0.99 : 1.0 - 1e-9;
+            EXPECT_LE(one.error.extent_px, other.error.extent_px * (1.0 + 1e-9));
+            EXPECT_GE(one.error.extent_px, other.error.extent_px * least);
+            EXPECT_LE(one.error.texel_m, other.error.texel_m * (1.0 + 1e-9));
+            EXPECT_GE(one.error.texel_m, other.error.texel_m * least);
             EXPECT_EQ(one.receivers, other.receivers);
             const auto lists = [](const FittedViews& of, const ShadowView& view) {
                 const auto casters = of.casters_of(view);

@@ -62,7 +62,9 @@ TEST_P(FitTest, EveryVisiblePointLiesInAMapWithRoomForTheFilterAndItsBlockersBef
                 ASSERT_NE(view, nullptr) << "round " << round << ": something is between the point and the light";
                 const glm::dvec3 blocker = p + (source - p) * (0.5 * (hit.from + hit.to));
                 const double its = GetParam() == LightKind::directional || hit.to < 1.0 ? in_map(*view, blocker).z : 1.0;
-                EXPECT_GE(its, depth) << "reversed: nearer is greater; beyond 1 it is clamped and still nearer";
+                // A blocker that all but touches the point is as near as the matrix, of floats, can tell.
+                EXPECT_GE(its, depth - 0x1p-24)
+                    << "reversed: nearer is greater; beyond 1 it is clamped and still nearer";
                 EXPECT_TRUE(std::isfinite(its));
             }
         });

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "systems/shadow/fitting/local/fit_hysteresis.h"
@@ -187,7 +188,7 @@ TEST(LocalFit, AThingThatGoesToAndFroMovesANearPlaneThatCostsNothingButOnce) {
 
 TEST(LocalFit, AnyHistoryIsSafe) {
     RandomScene random(print_seed());
-    int compared = 0;
+    std::size_t compared = 0, more = 0;
     for (int round = 0; round < 200; ++round) {
         const SceneSnapshot scene = random.scene(round % 2 == 0 ? LightKind::spot : LightKind::point);
         History wrong = fitted(scene).next_history;
@@ -203,9 +204,13 @@ TEST(LocalFit, AnyHistoryIsSafe) {
         wrong.lights[0].views[1].near_step = std::numeric_limits<int>::min();
         wrong.lights[0].views[2].low = glm::dvec2(std::numeric_limits<double>::quiet_NaN());
         const ShadowFrame free = fitted(scene), bound = fitted(scene, wrong);
-        ASSERT_EQ(free.fitted.views.size(), bound.fitted.views.size());
-        for (std::size_t v = 0; v < free.fitted.views.size(); ++v) {
-            const ShadowView &a = free.fitted.views[v], &b = bound.fitted.views[v];
+        // A view that was held wider may hold a caster where the free one has none, and so be drawn.
+        more += bound.fitted.views.size() - free.fitted.views.size();
+        for (const ShadowView& a : free.fitted.views) {
+            const auto same = [&](const ShadowView& other) { return other.layer == a.layer; };
+            const auto found = std::find_if(bound.fitted.views.begin(), bound.fitted.views.end(), same);
+            ASSERT_NE(found, bound.fitted.views.end()) << "round " << round << ", view " << a.layer;
+            const ShadowView& b = *found;
             const double worst = step_size(kHoldSteps + 1) * (1.0 + 1.0 / 15.0);
             EXPECT_LE(b.depth.far_m, a.depth.far_m * worst);
             EXPECT_LE(b.plane.texel_u, a.plane.texel_u * worst);
@@ -213,7 +218,8 @@ TEST(LocalFit, AnyHistoryIsSafe) {
             ++compared;
         }
     }
-    EXPECT_GT(compared, 100);
+    EXPECT_GT(compared, 100u);
+    EXPECT_LE(more, compared / 20) << "wrong histories cost views";
 }
 
 TEST(LocalFit, OnlyFacesWithAReceiverAndACasterAreViews) {
