@@ -62,7 +62,7 @@ TEST_P(FitTest, EveryVisiblePointLiesInAMapWithRoomForTheFilterAndItsBlockersBef
                 ASSERT_NE(view, nullptr) << "round " << round << ": something is between the point and the light";
                 const glm::dvec3 blocker = p + (source - p) * (0.5 * (hit.from + hit.to));
                 const double its = GetParam() == LightKind::directional || hit.to < 1.0 ? in_map(*view, blocker).z : 1.0;
-                // A blocker that all but touches the point is as near as the matrix, of floats, can tell.
+                // The matrix is of floats, which do not resolve a blocker that all but touches the point.
                 EXPECT_GE(its, depth - 0x1p-24)
                     << "reversed: nearer is greater; beyond 1 it is clamped and still nearer";
                 EXPECT_TRUE(std::isfinite(its));

@@ -204,7 +204,7 @@ TEST(LocalFit, AnyHistoryIsSafe) {
         wrong.lights[0].views[1].near_step = std::numeric_limits<int>::min();
         wrong.lights[0].views[2].low = glm::dvec2(std::numeric_limits<double>::quiet_NaN());
         const ShadowFrame free = fitted(scene), bound = fitted(scene, wrong);
-        // A view that was held wider may hold a caster where the free one has none, and so be drawn.
+        // A view that stays wider may contain a caster where the free one has none, and so be drawn.
         more += bound.fitted.views.size() - free.fitted.views.size();
         for (const ShadowView& a : free.fitted.views) {
             const auto same = [&](const ShadowView& other) { return other.layer == a.layer; };
