@@ -59,8 +59,8 @@ TEST_P(InnerReceivers, FitsAreThoseOfAllReceiversClipped) {
                 for (int row = 0; row < 4; ++row)
                     EXPECT_NEAR(one.clip_from_anchor[column][row], other.clip_from_anchor[column][row],
                                 1e-5 * std::abs(other.clip_from_anchor[column][row]) + 1e-6);
-            // Corners outside of a view do not count. Where several views lie side by side, other corners do than of all
-            // receivers, and so other texels along the views' border.
+            // Corners outside of a view do not count. Where several views lie side by side, other corners do than of
+            // all receivers, and so other texels along the views' border.
             const bool beside = GetParam() != LightKind::directional && all.fitted.views.size() > 1;
             const double least = beside ? 0.99 : 1.0 - 1e-9;
             EXPECT_LE(one.error.extent_px, other.error.extent_px * (1.0 + 1e-9));
