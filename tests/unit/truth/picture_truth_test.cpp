@@ -215,9 +215,9 @@ void expect_agreement(const AreaShares& shares, double most_in_crossed) {
                 shares.middle_off_in_crossed / crossed);
 }
 
-TEST(TruthOfAPicture, OfPixelsAreasIsTheReferences) {
+TEST(TruthOfAPicture, OfPixelsAreasIsTheReferencesWhateverTheNumberOfThreads) {
     const auto scene = load(std::nullopt, 3.0);
-    scene->move_to(3.0, kSize_px / 2u);
+    scene->move_to(3.0, kSize_px / 4u);
     LightItem& lantern = scene->snapshot.lights[1];
     lantern.shadow.antialias = true;
     const PictureTruth points = traced(*scene);
@@ -226,24 +226,14 @@ TEST(TruthOfAPicture, OfPixelsAreasIsTheReferences) {
     EXPECT_FALSE(points.lights[1].source_and_area) << "a point has none";
     expect_agreement(area_shares_of(*scene, points.lights[1], *points.lights[1].area, false), 0.002);
     lantern.source_radius_m = 0.1f;
-    const PictureTruth sized = traced(*scene);
+    TraceState state;
+    const PictureTruth sized = traced(*scene), one = trace_picture(scene->snapshot, scene->library, 1, state);
     EXPECT_EQ(sized.lights[1].area->visibility, points.lights[1].area->visibility) << "the middle's";
     ASSERT_TRUE(sized.lights[1].source_and_area);
-    expect_agreement(area_shares_of(*scene, sized.lights[1], *sized.lights[1].source_and_area, true), 0.025);
-}
-
-TEST(TruthOfAPicture, OfPixelsAreasIsTheSameOnOneThread) {
-    const auto scene = load(std::nullopt, 3.0);
-    scene->move_to(3.0, kSize_px / 4u);
-    LightItem& lantern = scene->snapshot.lights[1];
-    lantern.shadow.antialias = true;
-    lantern.source_radius_m = 0.1f;
-    TraceState state;
-    const PictureTruth one = trace_picture(scene->snapshot, scene->library, 1, state), two = traced(*scene);
-    for (const auto share : {&TracedLight::area, &TracedLight::source_and_area}) {
-        EXPECT_EQ((one.lights[1].*share)->visibility, (two.lights[1].*share)->visibility);
-        EXPECT_EQ((one.lights[1].*share)->scored, (two.lights[1].*share)->scored);
-    }
+    // Two tracers with 256 rays a pixel, each off by about 0.02.
+    expect_agreement(area_shares_of(*scene, sized.lights[1], *sized.lights[1].source_and_area, true), 0.03);
+    EXPECT_EQ(one.lights[1].source_and_area->visibility, sized.lights[1].source_and_area->visibility);
+    EXPECT_EQ(one.lights[1].source_and_area->scored, sized.lights[1].source_and_area->scored);
 }
 
 TEST(TruthOfAPicture, OfSponzaIsTheReferences) {
