@@ -12,6 +12,7 @@
 #include "gnomon/light.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/frame_system.h"
+#include "tests/long_run.h"
 #include "tests/system/timed_device.h"
 
 /// The level of ./gnomon bench demand, 200 shadowed lights in it, within a budget.
@@ -141,7 +142,7 @@ TEST_F(Budgets, DoNotOscillateWhileTheCameraWalks) {
         int direction = 0, turns = 0, changes = 0;
     };
     std::map<std::string, Turns> turns;
-    constexpr int kFrames = 600;
+    constexpr int kFrames = kSanitized ? 100 : 600;
     double mean_us = 0.0, stages_us = 0.0;
     for (int i = 0; i < kFrames; ++i) {
         level->walk(1.4 / 60.0);

@@ -276,7 +276,7 @@ TEST(TruthOfAPicture, WithoutACasterEverythingInReachIsLit) {
 
 TEST(TruthOfAPicture, ASourcesSizeAndTheNumberOfThreadsChangeNothing) {
     const auto scene = load(std::nullopt, 3.0);
-    scene->move_to(3.0, kSize_px / 2u);
+    scene->move_to(3.0, kSize_px / 4u);
     const PictureTruth plain = traced(*scene);
     for (LightItem& light : scene->snapshot.lights) {
         light.source_radius_m = 0.3f;
@@ -334,7 +334,7 @@ double time_of_trace_s(const test::LoadedScene& scene, bool whole) {
 
 TEST(TruthInTheBackground, EndsSoonWhenNobodyWantsItAnyMore) {
     const auto scene = load(std::nullopt, 3.0);
-    scene->move_to(3.0, {1024, 1024});
+    scene->move_to(3.0, {512, 512});
     EXPECT_LT(2.0 * time_of_trace_s(*scene, false), time_of_trace_s(*scene, true));
 }
 
