@@ -17,6 +17,9 @@ namespace gnomon {
 
 inline constexpr double kUnitRoundoff = 5.9604644775390625e-8;  // 2^-24, of a float
 
+/// Most worlds that are played for each planned one. A few worlds may happen to leave nearly all places to rays.
+inline constexpr int kMostPerPlanned = 8;
+
 enum class Verdict : std::uint8_t { lit, dark, uncertain };
 
 /// Sheets of views put together by hand, and their verdicts on places, by the shaders' own text.

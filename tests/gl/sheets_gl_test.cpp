@@ -27,9 +27,6 @@ glm::dvec3 end_of_reach(const LightItem& light, const glm::dvec3& at_ws_m, doubl
     return at_ws_m + reach * (sun ? light.rotation_ws[2] : light.position_ws_m - at_ws_m);
 }
 
-/// Most worlds that are played for each planned one. A few worlds may happen to leave nearly all places to rays.
-constexpr int kMostPerPlanned = 8;
-
 /// Counts of places. `places`: only what the maps show.
 struct Tally {
     std::size_t places = 0, lit = 0, dark = 0, wrong = 0;
