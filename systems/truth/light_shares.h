@@ -9,8 +9,8 @@
 /// True shares of a light that pixels see: of its source, if that has a size; over their areas, for antialiased edges.
 namespace gnomon::truth {
 
-/// Rays of a pixel: from `places` of its area beside the middle, or from the middle as the only place, one to each of
-/// `samples` places on the source.
+/// Rays of a pixel: one from each of `places` to each of `samples` places on the source. The former lie in its area
+/// and come on top of its middle, which is else the only one.
 struct ShareRays {
     std::uint32_t places = 1, samples = 1;
     std::uint32_t count() const { return places * samples; }
