@@ -39,7 +39,7 @@ SeenPlace seen_place(ivec2 pixel, SurfacePlace place) {
     float ahead_error = dot(product_error, abs(ahead_m)) + dot(abs(normal), corner_error_m);
     float distance_m = dot(normal, ahead_m) / nearing;
     float error_m = (ahead_error + abs(distance_m) * nearing_error) / (abs(nearing) - nearing_error);
-    bool is_known = error_m >= 0.0 && is_believed(distance_m, place.interpolated_m);
+    bool is_known = error_m >= 0.0 && is_believed(distance_m, error_m, place.interpolated_m);
     float believed_m = is_known ? distance_m : place.interpolated_m;
     vec3 position_ca = line.origin + line.along * believed_m;
     float rounded_m = length(line_error) * max(believed_m, 1.0) + kRebuiltRelative * length(position_ca);

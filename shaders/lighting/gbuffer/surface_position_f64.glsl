@@ -23,6 +23,6 @@ dvec3 exact_place(ivec2 pixel, SurfacePlace place) {
     dvec3 corner_ca = exact_origin(instance, camera.anchor_high.xyz, camera.anchor_low.xyz) + exact_image(instance, vertex_position(place.corner));
     dvec3 normal = exact_normal(instance, plane_normal(place.triangle));
     double distance_m = dot(normal, corner_ca - ray.origin) / dot(normal, ray.along);
-    if (!is_believed(float(distance_m), place.interpolated_m)) distance_m = double(place.interpolated_m);
+    if (!is_believed(float(distance_m), 0.0, place.interpolated_m)) distance_m = double(place.interpolated_m);
     return ray.origin + ray.along * distance_m;
 }

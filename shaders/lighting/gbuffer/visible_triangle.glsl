@@ -22,8 +22,9 @@ uvec2 receiver_of(SurfacePlace place) { return uvec2(place.instance, place.trian
 vec3 vertex_position(uint vertex) { return uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz); }
 
 // Returns whether the distance to the triangle's plane is plausible beside the rasteriser's. It is not where the plane
-// is seen edge-on, or where the triangle has no plane.
-bool is_believed(float distance_m, float interpolated_m) {
+// is seen edge-on, or where the triangle has no plane. Any distance within error_m has to be plausible: what is computed
+// more exactly then is as well.
+bool is_believed(float distance_m, float error_m, float interpolated_m) {
     const float kMostOff = 0.5;   // largest difference, as a share of the interpolated distance
-    return abs(distance_m - interpolated_m) <= kMostOff * interpolated_m;
+    return abs(distance_m - interpolated_m) + error_m <= kMostOff * interpolated_m;
 }
