@@ -29,8 +29,8 @@ struct JudgedLight {
     bool judged() const { return truth != nullptr; }
     /// Returns the number of pixels that it is judged at, 0 before it is.
     std::size_t scored() const { return metrics ? metrics->scored : soft ? soft->scored : 0; }
-    /// Returns the share of them that are wrong: on the other side of a half than the middle's truth, or off by more
-    /// than a half from a share.
+    /// Returns the share of them that are wrong: on the other side of a half than a truth of yes or no, else off by more
+    /// than a half.
     double wrong() const;
 };
 

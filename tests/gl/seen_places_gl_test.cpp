@@ -51,7 +51,7 @@ ConsumerItem random_camera(Random& random, const glm::dvec3& offset_m) {
     return camera;
 }
 
-/// Distance that the rasteriser is said to have found. hardly: so far from the plane's that rounding decides whether
+/// Distance that stands for the rasteriser's. hardly: so far from the plane's that rounding decides whether
 /// that one is believed (lighting/gbuffer/visible_triangle.glsl).
 enum class Interpolated : std::uint8_t { there, hardly };
 
