@@ -29,7 +29,7 @@ struct JudgedLight {
     bool judged() const { return truth != nullptr; }
     /// Returns the number of pixels that it is judged at, 0 before it is.
     std::size_t scored() const { return metrics ? metrics->scored : soft ? soft->scored : 0; }
-    /// Returns the share of them that are wrong. By `metrics`: on the other side of a half. By `soft`: off by more.
+    /// Returns the share of them that are wrong: on the other side of a half, or of `soft` off by more than a half.
     double wrong() const;
 };
 
