@@ -35,7 +35,8 @@ protected:
                                                                                std::cos(elevation) * std::sin(azimuth));
     }
 
-    void add_things(double unit_m, const glm::dvec3& origin_m, Random& random) {
+    /// Returns the ground's size, m.
+    double add_things(double unit_m, const glm::dvec3& origin_m, Random& random) {
         const std::vector<std::uint32_t> meshes = {
             add_analysed(game::make_box(glm::dvec3(-0.5), glm::dvec3(0.5))),
             add_analysed(game::make_sphere(0.5, 24, 16)),
@@ -44,7 +45,8 @@ protected:
             add_analysed(game::make_bar({0.0, -0.5, 0.0}, {0.0, 0.5, 0.0}, 0.03, 8)),
             add_analysed(game::make_cloth(1.0, 1.0, 0.1, 3.0, 24, 12))};
         const std::uint32_t ground = add_analysed(game::make_card({}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}));
-        place(ground, {.translation_m = origin_m, .scale = glm::dvec3(unit_m * of_any_size(5.0, 5000.0, random))});
+        const double ground_m = unit_m * of_any_size(5.0, 5000.0, random);
+        place(ground, {.translation_m = origin_m, .scale = glm::dvec3(ground_m)});
         const int count = static_cast<int>(of_any_size(1.0, 40.0, random));
         for (int i = 0; i < count; ++i) {
             const double size_m = unit_m * of_any_size(0.1, 3.0, random);
@@ -56,12 +58,14 @@ protected:
                    .scale = size_m * sizes},
                   chance(0.9, random));
         }
+        return ground_m;
     }
-    Camera any_camera(double unit_m, Random& random) {
+    Camera any_camera(double unit_m, double ground_m, Random& random) {
         Camera camera{.near_m = unit_m * of_any_size(1.0e-3, 0.2, random)};
         if (chance(0.3, random)) {
             camera.projection = CameraProjection::orthographic;
-            camera.half_height_m = unit_m * of_any_size(0.5, 8.0, random);
+            // A triangle may be 3000 times as large as what is seen of it (docs/reference/limits.md).
+            camera.half_height_m = std::max(unit_m * of_any_size(0.5, 8.0, random), ground_m / 3000.0);
         } else {
             camera.fov_y_rad = between(0.2, 2.0, random);
             if (chance(0.2, random)) camera.far_m = std::numeric_limits<double>::infinity();
@@ -73,9 +77,9 @@ protected:
         const double unit_m = chance(0.5, random) ? 1.0 : of_any_size(1.0e-3, 1.0e4, random);
         const glm::dvec3 origin_m =
             chance(0.5, random) ? glm::dvec3(0.0) : of_any_size(1.0, 1.0e7, random) * anywhere(random);
-        add_things(unit_m, origin_m, random);
+        const double ground_m = add_things(unit_m, origin_m, random);
         settings.viewport_px = {320, 200};
-        const Camera camera = any_camera(unit_m, random);
+        const Camera camera = any_camera(unit_m, ground_m, random);
         const glm::dvec3 eye_m = unit_m * from_above(2.0, 15.0, random);
         add_camera(camera, origin_m + eye_m, unit_m * anywhere(random) - eye_m);
         std::ostringstream text;
@@ -94,13 +98,15 @@ protected:
 };
 
 // So small a picture has maps of 512 texels, which leave one pixel in thirty thousand wrong. Where a lamp's texel is
-// tens of pixels wide, one in a hundred is wrong.
+// tens of pixels wide, one in a hundred is wrong. A light may state that it loses wider things, and lose them.
 TEST_F(AnyWorld, IsShadowedRightWithNothingTuned) {
     constexpr int kWorlds = 40;
     constexpr double kMostWrong = 2.5e-4, kMostWrongOfOne = 0.03, kLeastDark = 0.02;
     constexpr std::size_t kManyPixels = 2000;
+    constexpr double kWideThing_px = 64.0;
     Random random(print_seed());
     Tally worlds;
+    int lights = 0, coarse = 0;
     for (int number = 0; number < kWorlds; ++number) {
         make_world(random);
         draw();
@@ -109,11 +115,17 @@ TEST_F(AnyWorld, IsShadowedRightWithNothingTuned) {
             worlds.add(judged);
             const std::size_t wrong = judged.metrics.false_shadow + judged.metrics.false_light;
             if (judged.metrics.scored < kManyPixels) continue;
+            ++lights;
+            if (frame().report().lights[i].resolved.px > kWideThing_px) {
+                ++coarse;
+                continue;
+            }
             EXPECT_LE(static_cast<double>(wrong), kMostWrongOfOne * static_cast<double>(judged.metrics.scored))
                 << "world " << number << ", light " << i << ": " << what_;
         }
     }
     std::cout << worlds.text() << "\n";
+    EXPECT_LE(coarse, lights / 10) << "too few are judged one by one";
     EXPECT_GT(worlds.dark, kLeastDark * worlds.scored) << "nothing to lose";
     EXPECT_LE(worlds.false_light + worlds.false_shadow, kMostWrong * worlds.scored);
 }
