@@ -101,7 +101,8 @@ protected:
                 const double share = chance(random, 0.5) ? 1.5 : 0.5;
                 interpolated_m = plane_distance_m(camera, pixel, corners_ws_m) / share *
                                  (1.0 + between(random, -8.0, 8.0) * 0x1p-24);
-                if (!(interpolated_m > 0.0)) continue;
+                // A plane that is seen edge-on is nowhere, or anywhere.
+                if (!(interpolated_m > 0.0 && interpolated_m < camera.far_m)) continue;
             }
             const std::uint32_t corner = (*shape.indices)[3 * triangle + static_cast<std::uint32_t>(random() % 3)];
             asked.push_back({{std::bit_cast<std::uint32_t>(static_cast<float>(interpolated_m)),
