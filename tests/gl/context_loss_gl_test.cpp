@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -79,27 +80,33 @@ FaultScene random_scene(std::uint64_t seed) {
     return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry()}, play};
 }
 
-void expect_unbroken(const std::function<FaultScene()>& scene) {
-    const std::vector<Picture> unbroken = film(scene(), kFrames), broken = film(scene(), kLostBefore);
-    ASSERT_EQ(unbroken.size(), static_cast<std::size_t>(kFrames));
-    ASSERT_EQ(broken.size(), unbroken.size());
-    for (std::size_t i = 0; i < unbroken.size(); ++i) EXPECT_EQ(broken[i], unbroken[i]) << "frame " << i;
-    // Control: pictures of the old context and of the new one change.
+/// Returns whether pictures of the old context and of the new one change: without that equal ones prove nothing.
+bool changes_before_and_after(const std::vector<Picture>& pictures) {
     const auto changes = [&](int from, int to) {
-        int found = 0;
-        for (int i = from; i < to; ++i)
-            found += unbroken[static_cast<std::size_t>(i)] != unbroken[static_cast<std::size_t>(i - 1)];
-        return found;
+        const auto begin = pictures.begin() + from, end = pictures.begin() + to;
+        return std::adjacent_find(begin - 1, end, std::not_equal_to<>()) != end;
     };
-    EXPECT_GT(changes(1, kLostBefore), 0);
-    EXPECT_GT(changes(kLostBefore, kFrames), 0);
+    return changes(1, kLostBefore) && changes(kLostBefore, kFrames);
 }
 
-TEST(ContextLoss, ANewContextShowsTheSamePicturesOfTheBuiltInScene) { expect_unbroken(courtyard_scene); }
+/// Returns whether the scene changes enough to judge.
+bool expect_unbroken(const std::function<FaultScene()>& scene) {
+    const std::vector<Picture> unbroken = film(scene(), kFrames);
+    EXPECT_EQ(unbroken.size(), static_cast<std::size_t>(kFrames));
+    if (unbroken.size() != static_cast<std::size_t>(kFrames) || !changes_before_and_after(unbroken)) return false;
+    EXPECT_EQ(film(scene(), kLostBefore), unbroken);
+    return true;
+}
+
+TEST(ContextLoss, ANewContextShowsTheSamePicturesOfTheBuiltInScene) { EXPECT_TRUE(expect_unbroken(courtyard_scene)); }
 
 TEST(ContextLoss, ANewContextShowsTheSamePicturesOfARandomWorld) {
+    constexpr std::uint64_t kMostWorlds = 8;  // in a few, all that changes is out of sight
     const std::uint64_t seed = print_seed();
-    expect_unbroken([seed] { return random_scene(seed); });
+    bool judged = false;
+    for (std::uint64_t world = 0; world < kMostWorlds && !judged && !testing::Test::HasFailure(); ++world)
+        judged = expect_unbroken([&] { return random_scene(seed + world); });
+    EXPECT_TRUE(judged);
 }
 
 }  // namespace

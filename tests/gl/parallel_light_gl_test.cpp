@@ -9,7 +9,8 @@ namespace gnomon {
 namespace {
 
 constexpr glm::uvec2 kWall_px{96, 64};
-constexpr int kDarkestWall = 8;  // least level of a wall's pixel, of 255: no wall here is so aslant or far
+constexpr int kDarkestWall =
+    8;  // least level of a wall's pixel, of 255: no wall here is so aslant (71 degrees) or far (12 m)
 
 enum class Setup { torch_at_eye, bulb_at_eye, sun_behind_orthographic, bulb_in_view, torch_nearly_at_eye };
 
@@ -27,7 +28,7 @@ protected:
         start_anew();
         const glm::dvec3 along = glm::normalize(glm::dvec3(number(random), number(random), number(random)));
         const glm::dvec3 tilt =
-            glm::normalize(-along + 0.4 * glm::dvec3(number(random), number(random), number(random)));
+            glm::normalize(-along + 0.35 * glm::dvec3(number(random), number(random), number(random)));
         const glm::dvec3 eye(8.0 * number(random), 8.0 * number(random), 8.0 * number(random));
         const double away_m = 3.0 + 2.0 * number(random);
         add_material({.name = "matt", .base_colour = glm::vec4(glm::vec3(0.5f), 1.0f), .metallic = 0.0f});
