@@ -186,7 +186,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         if (pieces) judge_edges(picture, *pieces, bounds, options, light);
         light.far = errors_beyond_texels(picture, bounds, light.measured);
         const bool shows_shares =
-            (light.area && light.area->shown) ||
+            shows_areas(light) ||
             shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width == shadow::FilterWidth::source;
         if (!shows_shares) light.judged = judged_errors(light);
     }

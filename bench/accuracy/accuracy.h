@@ -73,6 +73,9 @@ struct LightAccuracy {
     std::size_t redrawn_differs = 0;
 };
 
+/// Returns whether the light's filter shows the lit shares of pixels' areas, so that they alone judge it.
+inline bool shows_areas(const LightAccuracy& light) { return light.area && light.area->shown; }
+
 struct Accuracy {
     std::string scene, device;
     glm::uvec2 size_px{0, 0};

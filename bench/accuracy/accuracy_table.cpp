@@ -88,7 +88,7 @@ void append_area(const Accuracy& accuracy, std::string& text) {
 }
 
 void append_what_is_shown(const LightAccuracy& light, std::string& text) {
-    if (!light.area || !light.area->shown) return;
+    if (!shows_areas(light)) return;
     text += light.report.name +
             ": antialiased: 'edges by area' judges it, the tables before compare it with pixels' middles.\n";
 }
@@ -173,7 +173,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
     append_air(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights) append_what_is_shown(light, text);
     for (const LightAccuracy& light : accuracy.lights)
-        if (light.edges && light.edges->exceptions.beyond() > 0 && !(light.area && light.area->shown)) {
+        if (light.edges && light.edges->exceptions.beyond() > 0 && !shows_areas(light)) {
             const oracle::EdgeExceptions& e = light.edges->exceptions;
             text += formatted(
                 "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "

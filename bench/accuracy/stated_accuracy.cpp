@@ -11,7 +11,7 @@ namespace {
 /// Returns whether edges are as near as stated. Penumbrae of a source with a size have none. Nor have lit shares of
 /// pixels' areas: a shadow narrower than a pixel is nowhere half dark.
 bool keeps_edges(const LightAccuracy& light) {
-    return !light.edges || light.soft || (light.area && light.area->shown) || light.edges->resolved.places == 0 ||
+    return !light.edges || light.soft || shows_areas(light) || light.edges->resolved.places == 0 ||
            light.edges->resolved.p999_px <= light.report.predicted_error_px;
 }
 

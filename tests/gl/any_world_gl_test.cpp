@@ -64,8 +64,8 @@ protected:
         Camera camera{.near_m = unit_m * of_any_size(1.0e-3, 0.2, random)};
         if (chance(0.3, random)) {
             camera.projection = CameraProjection::orthographic;
-            // A triangle may be 3000 times as large as what is seen of it (docs/reference/limits.md).
-            camera.half_height_m = std::max(unit_m * of_any_size(0.5, 8.0, random), ground_m / 3000.0);
+            constexpr double kLargestGround = 1500.0;  // times the picture's height (docs/reference/limits.md)
+            camera.half_height_m = std::max(unit_m * of_any_size(0.5, 8.0, random), 0.5 * ground_m / kLargestGround);
         } else {
             camera.fov_y_rad = between(0.2, 2.0, random);
             if (chance(0.2, random)) camera.far_m = std::numeric_limits<double>::infinity();
