@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 
 #include "tests/gl/gl_test_context.h"
 #include "tests/soak/soak_world.h"
@@ -11,7 +12,7 @@ namespace {
 
 /// Bytes of ten programs. llvmpipe compiles one once more for each combination of formats and states, some 200 KiB.
 /// The rarest combinations come late: in 100 000 frames the last after 40 000.
-constexpr std::size_t kMostGrowth_bytes = 2u << 20;
+constexpr std::int64_t kMostGrowth_bytes = 2 << 20;
 
 class GlSoak : public GlTest {
 protected:
@@ -55,39 +56,43 @@ protected:
     int failures = 0;
 };
 
+/// Programs that are needed for the first time add memory, in fewer stretches the longer the world lives. A leak adds
+/// it in each.
 TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
-    constexpr std::size_t kFrames = 3000;
+    const std::size_t frames = is_exploring() ? 500 : 3000;
+    constexpr int kStretches = 4;
     world.use_everything([this] { step(); });
     const std::size_t baseline = objects_when_empty();
-    churn(kFrames);
+    churn(frames);
     EXPECT_EQ(objects_when_empty(), baseline);
-    const std::size_t bytes_before = held_bytes();
-
-    churn(kFrames);
-
-    EXPECT_EQ(objects_when_empty(), baseline);
-    const std::size_t bytes_after = held_bytes();
+    std::int64_t growth = std::numeric_limits<std::int64_t>::max();
+    for (int stretch = 0; stretch < kStretches && growth > kMostGrowth_bytes; ++stretch) {
+        const std::size_t bytes_before = held_bytes();
+        churn(frames);
+        EXPECT_EQ(objects_when_empty(), baseline);
+        growth = static_cast<std::int64_t>(held_bytes()) - static_cast<std::int64_t>(bytes_before);
+        std::cout << frames << " frames after as many on " << device().info().name << ", held memory grew by " << growth
+                  << " bytes\n";
+    }
     EXPECT_EQ(failures, 0);
-    EXPECT_LE(bytes_after, bytes_before + kMostGrowth_bytes);
-    const auto growth = static_cast<std::int64_t>(bytes_after) - static_cast<std::int64_t>(bytes_before);
-    std::cout << kFrames << " frames after as many on " << device().info().name << ", held memory grew by " << growth
-              << " bytes\n";
+    EXPECT_LE(growth, kMostGrowth_bytes);
     RecordProperty("growth_bytes", std::to_string(growth));
 }
 
 TEST_F(GlSoak, ASmallLeakWouldBeSeen) {
     world.use_everything([this] { step(); });
-    churn(500);
-    const std::size_t baseline = objects_when_empty(), bytes_before = held_bytes();
+    churn(150);
+    const std::size_t baseline = objects_when_empty();
     std::vector<gl::BufferHandle> kept;
-    constexpr int kFrames = 700;
-    for (int i = 0; i < kFrames; ++i) {  // 4 KiB a frame: the bound is reached after 512
-        const std::vector<std::byte> page(4096, std::byte{1});
-        kept.push_back(device().create_buffer({"kept", page.size(), gl::BufferUse::fixed}, page).handle);
+    constexpr int kFrames = 175;
+    const std::size_t bytes_before = held_bytes();
+    for (int i = 0; i < kFrames; ++i) {  // 16 KiB a frame: the bound is reached after 128
+        const std::vector<std::byte> pages(16384, std::byte{1});
+        kept.push_back(device().create_buffer({"kept", pages.size(), gl::BufferUse::fixed}, pages).handle);
         step();
     }
     EXPECT_GT(objects_when_empty(), baseline);
-    EXPECT_GT(held_bytes(), bytes_before + kMostGrowth_bytes);
+    EXPECT_GT(static_cast<std::int64_t>(held_bytes()), static_cast<std::int64_t>(bytes_before) + kMostGrowth_bytes);
     for (const gl::BufferHandle buffer : kept) device().destroy(buffer);
     EXPECT_EQ(objects_when_empty(), baseline);
 }

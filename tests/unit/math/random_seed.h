@@ -19,6 +19,9 @@ inline std::uint64_t test_seed() {
     return std::string_view(given) == "random" ? std::random_device{}() : std::strtoull(given, nullptr, 10);
 }
 
+/// Returns whether a run explores seeds. It takes shorter walks of more worlds: many_seeds tries hundreds.
+inline bool is_exploring() { return std::getenv("GNOMON_TEST_SEED") != nullptr; }
+
 /// Returns test_seed() for a property test, printed so that a failure can be repeated.
 inline std::uint64_t print_seed() {
     const std::uint64_t seed = test_seed();
