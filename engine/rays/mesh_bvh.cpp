@@ -27,10 +27,12 @@ MeshBvh::MeshBvh(const assets::Mesh& mesh, std::span<const assets::Vertex> verti
     triangles_.reserve(mesh.indices.size() / 3);
     for (const assets::Submesh& part : mesh.submeshes) {
         const assets::AlphaMode mode = materials[part.material].alpha_mode;
-        const bool is_seen_through = mode == assets::AlphaMode::blend;
-        if (which == MeshPart::shown ? is_seen_through : assets::transmits(materials[part.material])) continue;
+        const bool is_translucent = assets::transmits(materials[part.material]);
+        const bool is_wanted = which == MeshPart::shown ? mode != assets::AlphaMode::blend
+                                                        : is_translucent == (which == MeshPart::translucent);
+        if (!is_wanted) continue;
         BvhTriangle triangle;
-        if (mode == assets::AlphaMode::mask) triangle.mask = part.material;
+        if (mode == assets::AlphaMode::mask || which == MeshPart::translucent) triangle.mask = part.material;
         for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {
             triangle.triangle = (part.first_index + i) / 3;
             triangles_.push_back(triangle);

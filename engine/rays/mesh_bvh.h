@@ -17,15 +17,16 @@ struct BvhTriangle {
     glm::vec3 a{0.0f};
     std::uint32_t triangle = 0;  // index in the mesh: its corners are indices[3 * triangle] and the next two
     glm::vec3 b{0.0f};
-    std::uint32_t mask = kOpaque;  // masked material with the alpha to test; kOpaque: none
+    std::uint32_t mask = kOpaque;  // material that decides what a hit is: masked, or translucent; kOpaque: none
     glm::vec3 c{0.0f};
     std::uint32_t spare = 0;
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
 /// Triangles of a mesh that a tree has. blocking: those of opaque and masked casters, which let no light through.
-/// shown: those of surfaces that pictures show as opaque: all but blended ones.
-enum class MeshPart : std::uint8_t { blocking, shown };
+/// shown: those of surfaces that pictures show as opaque: all but blended ones. translucent: those of translucent
+/// casters (assets::transmits).
+enum class MeshPart : std::uint8_t { blocking, shown, translucent };
 
 /// Tree over triangles of a mesh, in mesh space. Excludes those of a rigid mesh with a corner that is not finite. A
 /// deformed mesh's triangles follow its vertices, rounded to float once, as on the GPU.

@@ -85,13 +85,27 @@ std::vector<std::size_t> listed(const FrozenFrame& frozen, std::size_t& others) 
     return found;
 }
 
+/// Returns whether a light's colours behind glass are judged, so that they have a column.
+bool any_tint(const FrozenFrame& frozen) {
+    return std::any_of(frozen.lights().begin(), frozen.lights().end(),
+                       [](const JudgedLight& light) { return light.tint.has_value(); });
+}
+
 /// Columns before a light's figures: its name, cut where the picture is narrow.
 int name_width(const FrozenFrame& frozen, const std::vector<std::size_t>& lights, float width_px) {
-    constexpr float kLeast = 14.0f, kMost = 32.0f, kFigures = 72.0f;
-    const float room = width_px / ImGui::CalcTextSize("m").x - kFigures;
+    constexpr float kLeast = 10.0f, kMost = 32.0f, kFigures = 72.0f, kTint = 9.0f;
+    const float room = width_px / ImGui::CalcTextSize("m").x - kFigures - (any_tint(frozen) ? kTint : 0.0f);
     std::size_t longest = 0;
     for (const std::size_t i : lights) longest = std::max(longest, frozen.lights()[i].name.size());
     return static_cast<int>(std::clamp(std::min(static_cast<float>(longest), room), kLeast, kMost));
+}
+
+/// Returns the mean error of colours behind glass, percent; empty: not judged.
+std::string tint_figure(const JudgedLight& light) {
+    if (!light.tint) return {};
+    char text[32];
+    std::snprintf(text, sizeof text, "%8.4f", 100.0 * light.tint->tinted_error);
+    return text;
 }
 
 std::string figures(const JudgedLight& light, const LightReport& report, int width) {
@@ -101,7 +115,7 @@ std::string figures(const JudgedLight& light, const LightReport& report, int wid
         std::snprintf(text, sizeof text, "%-*.*s by %s: mean error %.3f %%, where partly lit %.2f %%, leak %.3f %%",
                       width, width, light.name.c_str(), name_of(light.by), 100.0 * m.mean_error,
                       100.0 * m.penumbra_error, 100.0 * m.umbra_leak);
-        return text;
+        return light.tint ? text + (", glass " + tint_figure(light) + " %") : text;
     }
     if (!light.metrics) {
         std::snprintf(text, sizeof text, "%-*.*s %s", width, width, light.name.c_str(),
@@ -110,10 +124,10 @@ std::string figures(const JudgedLight& light, const LightReport& report, int wid
     }
     const truth::Metrics& m = *light.metrics;
     const auto percent = [&](std::size_t pixels) { return 100.0 * m.fraction(pixels); };
-    std::snprintf(text, sizeof text, "%-*.*s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f %s", width, width,
+    std::snprintf(text, sizeof text, "%-*.*s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f %s %s", width, width,
                   light.name.c_str(), percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
                   percent(m.acne), percent(m.leak), m.edge.max_px, report.predicted_error_px,
-                  has_less(report) ? reason_code(report.reason) : "");
+                  tint_figure(light).c_str(), has_less(report) ? reason_code(report.reason) : "");
     return text;
 }
 
@@ -145,8 +159,8 @@ void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec
     const int width = name_width(frozen, lights, size_px.x);
     words.add("against ray-traced truth, frozen: F5 goes on, F2 shows the next light");
     char head[128];
-    std::snprintf(head, sizeof head, "  %-*s %8s %8s %8s %8s %8s %7s %9s", width, "light", "wrong %", "f.shad %",
-                  "f.lit %", "acne %", "leak %", "edge px", "predicted");
+    std::snprintf(head, sizeof head, "  %-*s %8s %8s %8s %8s %8s %7s %9s %s", width, "light", "wrong %", "f.shad %",
+                  "f.lit %", "acne %", "leak %", "edge px", "predicted", any_tint(frozen) ? " glass %" : "");
     words.add(head);
     words.add(frozen.chosen() ? "  each pixel's worst" : "> each pixel's worst", frozen.chosen() ? kInk : kChosen);
     for (const std::size_t i : lights) {

@@ -11,8 +11,8 @@ namespace gnomon::game {
 namespace {
 
 TracedSource source_of(const Light& light, const LightShadow& shadow) {
-    return {shadow.layers,        shadow.antialias, light.source_radius_m,
-            light.sun_radius_rad, light.width_m,    light.height_m};
+    return {shadow.layers, shadow.antialias, shadow.translucent_casters, light.source_radius_m, light.sun_radius_rad,
+            light.width_m, light.height_m};
 }
 
 /// A share of a light, and its name.
@@ -38,6 +38,33 @@ const LightReport* report_of(const FrameReport& report, ecs::Entity light) {
     return own == report.lights.end() ? nullptr : &*own;
 }
 
+nlohmann::ordered_json middle_stats(const JudgedLight& light, const truth::Metrics& m) {
+    return {{"name", light.name},
+            {"judged_by", light.by},
+            {"scored_px", m.scored},
+            {"wrong_px", m.wrong},
+            {"false_shadow_px", m.false_shadow},
+            {"false_light_px", m.false_light},
+            {"uncovered_px", m.uncovered},
+            {"acne_px", m.acne},
+            {"leak_px", m.leak},
+            {"ambiguous_px", m.ambiguous},
+            {"coverage_mismatch_px", m.coverage_mismatch},
+            {"wrong", m.fraction(m.wrong)},
+            {"edge",
+             {{"places", m.edge.places},
+              {"lost", m.edge.lost},
+              {"mean_px", m.edge.mean_px},
+              {"p95_px", m.edge.p95_px},
+              {"p99_px", m.edge.p99_px},
+              {"max_px", m.edge.max_px}}}};
+}
+
+nlohmann::ordered_json tint_stats(const truth::TintMetrics& m) {
+    return {{"scored_px", m.scored},      {"tinted_px", m.tinted},          {"beyond_px", m.beyond},
+            {"mean_error", m.mean_error}, {"tinted_error", m.tinted_error}, {"max_error", m.max_error}};
+}
+
 nlohmann::ordered_json share_stats(const JudgedLight& light, const truth::SoftMetrics& m) {
     return {{"name", light.name},
             {"judged_by", light.by},
@@ -51,6 +78,16 @@ nlohmann::ordered_json share_stats(const JudgedLight& light, const truth::SoftMe
             {"lit_loss", m.lit_loss},
             {"penumbra_px", m.penumbra},
             {"penumbra_error", m.penumbra_error}};
+}
+
+void judge_tint(Frame& frame, const truth::TracedLight& traced, JudgedLight& light) {
+    std::vector<glm::vec4> measured;
+    const bool reads_source =
+        traced.source && light.truth != &traced.truth && (!traced.area || light.truth != &*traced.area);
+    if (!traced.tint || reads_source || !frame.read_tint(light.entity, measured) ||
+        measured.size() != traced.tint->passed.size())
+        return;
+    light.tint = truth::compare_tint(measured, *traced.tint, traced.truth, light.tint_off);
 }
 
 }  // namespace
@@ -127,6 +164,8 @@ void FrozenFrame::judge(Frame& frame, std::size_t index) {
     light.truth = nullptr;
     light.metrics.reset();
     light.soft.reset();
+    light.tint.reset();
+    light.tint_off.clear();
     if (!frame.read_visibility(light.entity, light.measured)) light.measured.clear();
     const auto& lights = trace_->truth().lights;
     if (index < lights.size() && light.measured.size() == lights[index].truth.visibility.size()) {
@@ -137,6 +176,7 @@ void FrozenFrame::judge(Frame& frame, std::size_t index) {
             light.metrics = truth::compare({size_px_, light.measured, truth.visibility, truth.scored, truth.ambiguous});
         else
             light.soft = truth::compare_soft(light.measured, truth.visibility, truth.scored);
+        judge_tint(frame, lights[index], light);
     }
     paint();
 }
@@ -156,7 +196,7 @@ void FrozenFrame::paint() {
     std::vector<truth::DrawnLight> shown;
     for (std::size_t i = 0; i < lights_.size(); ++i)
         if (lights_[i].judged() && (!chosen_ || *chosen_ == i))
-            shown.push_back({lights_[i].measured, lights_[i].truth});
+            shown.push_back({lights_[i].measured, lights_[i].truth, lights_[i].tint_off});
     truth::tint_errors(size_px_, shown, tints_);
     ++version_;
 }
@@ -165,27 +205,8 @@ nlohmann::ordered_json truth_stats(const FrozenFrame& frozen) {
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const JudgedLight& light : frozen.lights()) {
         if (light.soft) lights.push_back(share_stats(light, *light.soft));
-        if (!light.metrics) continue;
-        const truth::Metrics& m = *light.metrics;
-        lights.push_back({{"name", light.name},
-                          {"judged_by", light.by},
-                          {"scored_px", m.scored},
-                          {"wrong_px", m.wrong},
-                          {"false_shadow_px", m.false_shadow},
-                          {"false_light_px", m.false_light},
-                          {"uncovered_px", m.uncovered},
-                          {"acne_px", m.acne},
-                          {"leak_px", m.leak},
-                          {"ambiguous_px", m.ambiguous},
-                          {"coverage_mismatch_px", m.coverage_mismatch},
-                          {"wrong", m.fraction(m.wrong)},
-                          {"edge",
-                           {{"places", m.edge.places},
-                            {"lost", m.edge.lost},
-                            {"mean_px", m.edge.mean_px},
-                            {"p95_px", m.edge.p95_px},
-                            {"p99_px", m.edge.p99_px},
-                            {"max_px", m.edge.max_px}}}});
+        if (light.metrics) lights.push_back(middle_stats(light, *light.metrics));
+        if (light.judged() && light.tint) lights.back()["tint"] = tint_stats(*light.tint);
     }
     return {{"lights", std::move(lights)}};
 }

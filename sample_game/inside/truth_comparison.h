@@ -25,6 +25,8 @@ struct JudgedLight {
     const truth::LightTruth* truth = nullptr;  // that share; null: not judged
     std::optional<truth::Metrics> metrics;     // accuracy of `measured` by the light's middle at pixels' middles
     std::optional<truth::SoftMetrics> soft;    // the same by a share: of its source, of pixels' areas, or of both
+    std::optional<truth::TintMetrics> tint = {};  // accuracy of colours behind glass; empty: none, or not judged
+    std::vector<float> tint_off = {};             // compare_tint()
     bool stale = true;                       // its visibility has to be read again
     bool judged() const { return truth != nullptr; }
     /// Returns the number of pixels that it is judged at, 0 before it is.
@@ -36,7 +38,7 @@ struct JudgedLight {
 /// What the truth about a light depends on, beside its place.
 struct TracedSource {
     ShadowLayers layers{};
-    bool antialias = false;
+    bool antialias = false, translucent_casters = false;
     float source_radius_m = 0.0f, sun_radius_rad = 0.0f, width_m = 0.0f, height_m = 0.0f;
     bool operator==(const TracedSource&) const = default;
 };
@@ -45,7 +47,8 @@ struct TracedSource {
 ///
 /// While it is frozen the caller moves neither camera, lights nor casters. Settings of shadows may change: errors are
 /// then computed again, for one light per frame, against the same truth. It is that of what the light's filter shows:
-/// of the light's middle or of all its source, at pixels' middles or over their areas.
+/// of the light's middle or of all its source, at pixels' middles or over their areas. Colours behind glass are those
+/// of its middle: filters that read the source's size have them unjudged.
 class FrozenFrame {
 public:
     enum class State : std::uint8_t { off, tracing, shown };
@@ -54,7 +57,8 @@ public:
     void freeze(ecs::Registry& world, const assets::MeshLibrary& library, glm::uvec2 size_px, unsigned threads);
     void thaw();
     /// Judges one light at most, once the trace is finished; never blocks on it. Call after each frame. Ends the freeze
-    /// if the picture's size, or the source, the layers or the antialiasing of a light's shadow have changed.
+    /// if the picture's size, or the source, the layers, the antialiasing or the
+    /// translucent casters of a light's shadow have changed.
     void update(Frame& frame, const ecs::Registry& world, glm::uvec2 size_px);
     /// Blocks until the trace is complete and every light is judged, or its visibility proves unreadable.
     void finish(Frame& frame);

@@ -33,19 +33,20 @@ Worst worst_of(std::span<const DrawnLight> lights, std::size_t i) {
             worst.ambiguous = true;
             continue;
         }
-        ComparedPixel pixel{light.truth->visibility[i], light.measured[i], true, false};
-        const bool wrong = is_wrong(pixel);
-        const float off = pixel.measured >= 0.0f ? std::abs(pixel.measured - pixel.truth) : 1.0f;
-        if (!(off > worst.off)) continue;
-        // Gives the colour of the error's direction.
-        if (pixel.measured >= 0.0f) {
-            const bool bright = pixel.measured > pixel.truth;
-            pixel.measured = bright ? 1.0f : 0.0f;
-            pixel.truth = 1.0f - pixel.measured;
+        const ComparedPixel pixel{light.truth->visibility[i], light.measured[i], true, false};
+        const bool covered = pixel.measured >= 0.0f;
+        bool wrong = is_wrong(pixel);
+        float off = covered ? pixel.measured - pixel.truth : -1.0f;
+        if (!light.tint_off.empty() && std::abs(light.tint_off[i]) > std::abs(off)) {
+            off = light.tint_off[i];
+            wrong = std::abs(off) > kHalf;
         }
-        worst.off = off;
+        if (!(std::abs(off) > worst.off)) continue;
+        worst.off = std::abs(off);
         worst.wrong = wrong;
-        worst.colour = error_colour(pixel);
+        const bool bright = off > 0.0f;
+        worst.colour =
+            error_colour(covered ? ComparedPixel{bright ? 0.0f : 1.0f, bright ? 1.0f : 0.0f, true, false} : pixel);
     }
     return worst;
 }

@@ -32,12 +32,6 @@ void ask(const SceneSnapshot& scene, const LightItem& light, visibility::LightQu
     queries.ask(scene, light, questions.places, {}, questions.answers);
 }
 
-double cosine_to(const LightItem& light, const SeenSurfaces& seen, std::size_t pixel) {
-    const glm::dvec3 way = to_light(light, seen.position_ws_m[pixel]);
-    const double distance = glm::length(way);
-    return distance > 0.0 ? glm::dot(seen.normal_ws[pixel], way) / distance : 0.0;
-}
-
 /// Adds four places around the pixel's. The offset stays in the surface: outside it, a place could lie inside the
 /// solid, and grazing rays would hit neighbours.
 void add_around(const SeenSurfaces& seen, std::size_t pixel, Questions& questions) {
@@ -54,6 +48,12 @@ void LightTruth::reset(std::size_t pixels) {
     visibility.assign(pixels, -1.0f);
     scored.assign(pixels, 0);
     ambiguous.assign(pixels, 0);
+}
+
+double cosine_to(const LightItem& light, const SeenSurfaces& seen, std::size_t pixel) {
+    const glm::dvec3 way = to_light(light, seen.position_ws_m[pixel]);
+    const double distance = glm::length(way);
+    return distance > 0.0 ? glm::dot(seen.normal_ws[pixel], way) / distance : 0.0;
 }
 
 LightItem as_point(const LightItem& light) {

@@ -23,6 +23,9 @@ struct LightTruth {
 /// Returns the light without its source's size: the reference for maps and metrics.
 LightItem as_point(const LightItem& light);
 
+/// Returns the cosine between a pixel's normal and the way to the light's middle; 0 at the light itself.
+double cosine_to(const LightItem& light, const SeenSurfaces& seen, std::size_t pixel);
+
 /// Half-open range of a picture's rows.
 struct RowRange {
     std::uint32_t first = 0, count = 0;

@@ -10,8 +10,8 @@ namespace {
 
 /// Number of rows that a thread takes at a time: neighbouring places share their walk through the trees.
 constexpr std::uint32_t kRowsAtOnce = 4;
-/// Cost per row: one ray for the surface, five for its light, and the few of each share.
-constexpr std::uint64_t kSeeing = 1, kLighting = 5;
+/// Cost per row: one ray for the surface, five for its light, one for colours, and the few of each share.
+constexpr std::uint64_t kSeeing = 1, kLighting = 5, kTinting = 1;
 std::uint64_t share_cost(const LightItem& light, bool over_area) {
     const ShareRays few = share_steps(light, over_area).few;
     return few.count() + (over_area ? few.places : 0);
@@ -62,11 +62,17 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
     if (scene.consumers.empty()) return truth;
     const ConsumerItem& camera = scene.consumers.front();
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}, {}, {}, {}});
+        if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}, {}, {}, {}, {}});
     const std::uint32_t height = camera.viewport_px.y;
+    visibility::CasterTrees translucent(library, visibility::TreesOf::translucent);
+    translucent.update(scene);
     std::uint64_t work_per_row = kSeeing;
-    for (const TracedLight& traced : truth.lights) {
+    for (TracedLight& traced : truth.lights) {
         work_per_row += kLighting;
+        if (translucent.counts().triangles > 0 && scene.lights[traced.light].shadow.translucent_casters) {
+            traced.tint.emplace();
+            work_per_row += kTinting;
+        }
         for (const Share& share : shares_of(scene.lights[traced.light]))
             work_per_row +=
                 2 * share_cost(share.light, share.over_area);  // as many again for pixels that need many: a guess
@@ -96,6 +102,14 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
                 trace_rows(scene, light, truth.seen, {row, rows}, queries, traced.truth);
             };
         });
+        if (traced.tint) {
+            traced.tint->reset(truth.seen.count());
+            share_rows(height, threads, kTinting, state, [&] {
+                return [&](std::uint32_t row, std::uint32_t rows) {
+                    trace_tint_rows(scene, light, truth.seen, {row, rows}, translucent, *traced.tint);
+                };
+            });
+        }
         for (const Share& share : shares_of(scene.lights[traced.light])) {
             LightTruth& shares = (traced.*share.member).emplace();
             shares.reset(truth.seen.count());

@@ -7,6 +7,7 @@
 
 #include "systems/truth/light_truth.h"
 #include "systems/truth/seen_surfaces.h"
+#include "systems/truth/tint_truth.h"
 
 /// Truth about a picture's shadows: surfaces of the first camera, and the visibility of each shadowed light. A filter
 /// is judged by what it shows: the light's middle or all of its source, at pixels' middles or over their areas.
@@ -18,6 +19,7 @@ struct TracedLight {
     std::optional<LightTruth> source;  // share of its source; empty for a point
     // The same over pixels' areas, where the middle's is not ambiguous; empty without LightShadow::antialias.
     std::optional<LightTruth> area, source_and_area;
+    std::optional<TintTruth> tint;  // colours of its middle; empty: it has no translucent casters, or leaves them out
 };
 
 struct PictureTruth {

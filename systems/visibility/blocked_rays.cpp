@@ -1,18 +1,9 @@
 #include "systems/visibility/blocked_rays.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "systems/visibility/scene_walk.h"
 
 namespace gnomon::visibility {
 namespace {
-
-/// Rounding of corners relative to the place, and of the plane through three of them. A dozen operations on numbers no
-/// larger than the coordinates.
-constexpr double kPlaneUnits = 64.0 * 0x1p-53;
-
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// Decides exactly, for one instance.
 class InstanceTest final : public rays::ExactTest {
@@ -26,9 +17,7 @@ public:
         rays::ExactHit hit;
         if (!rays::meets(rays_.along[ray], exact, hit)) return false;
         if (!(hit.t > rays_.first[ray])) return false;
-        const double size_m = largest(from_ws_m) + largest(item_.translation_ws_m) + largest(exact.a) +
-                              largest(exact.b) + largest(exact.c);
-        const double error_m = kPlaneUnits * size_m;
+        const double error_m = corner_error_m(item_, exact, from_ws_m);
         if (rays::begins_on_plane(exact, error_m)) return false;
         // A lamp in the triangle's plane counts as in front of it.
         const bool on_front = rays::ends_on_plane(rays_.along[ray] * rays_.last, exact, error_m);

@@ -17,8 +17,8 @@ void CasterTrees::list_meshes(const SceneSnapshot& scene) {
         // Another mesh may have the number since the snapshot was filled.
         if (item.drawable.by_depth || item.mesh_version != library_->version_of(item.mesh)) continue;
         Tree& tree = trees_[item.mesh];
-        tree.bvh = rays::MeshBvh(library_->meshes[item.mesh], vertices_of(scene, item.mesh), library_->materials,
-                                 of_ == TreesOf::visible ? rays::MeshPart::shown : rays::MeshPart::blocking);
+        tree.bvh =
+            rays::MeshBvh(library_->meshes[item.mesh], vertices_of(scene, item.mesh), library_->materials, part());
         const PoseItem* pose = pose_of(scene, item.mesh);
         tree.pose_version = pose ? pose->version : 0;
         tree.mesh_version = library_->version_of(item.mesh);

@@ -12,7 +12,8 @@ namespace gnomon::visibility {
 
 /// Meshes that get a tree, over triangles that block light: those of casters, or also those of visible instances.
 /// visible: those of visible instances, over triangles that pictures show as opaque (rays::MeshPart::shown).
-enum class TreesOf : std::uint8_t { casters, casters_and_visible, visible };
+/// translucent: those of casters, over triangles that let light through.
+enum class TreesOf : std::uint8_t { casters, casters_and_visible, visible, translucent };
 
 /// Lower level of a two-level tree over all casters: one MeshBvh per casting mesh, in its own space. The upper level is
 /// SceneSnapshot::tree, which extraction maintains anyway. Uses no memory before the first update().
@@ -52,8 +53,13 @@ private:
     void list_meshes(const SceneSnapshot& scene);
     std::span<const assets::Vertex> vertices_of(const SceneSnapshot& scene, std::uint32_t mesh);
 
+    rays::MeshPart part() const {
+        if (of_ == TreesOf::translucent) return rays::MeshPart::translucent;
+        return of_ == TreesOf::visible ? rays::MeshPart::shown : rays::MeshPart::blocking;
+    }
     bool wants(const InstanceItem& item) const {
-        return (item.casts && of_ != TreesOf::visible) || (of_ != TreesOf::casters && shows_surface(item));
+        return (item.casts && of_ != TreesOf::visible) ||
+               ((of_ == TreesOf::casters_and_visible || of_ == TreesOf::visible) && shows_surface(item));
     }
 
     const assets::MeshLibrary* library_;

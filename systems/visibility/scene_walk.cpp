@@ -1,6 +1,6 @@
 #include "systems/visibility/scene_walk.h"
 
-#include "engine/rays/alpha_mask.h"
+#include "engine/rays/transmittance.h"
 
 namespace gnomon::visibility {
 namespace {
@@ -11,6 +11,12 @@ math::Aabb bounds_of(const SceneSnapshot& scene) {
     for (const InstanceItem& item : scene.instances) all = math::merged(all, item.bounds_ws);
     return all;
 }
+
+/// Rounding of corners relative to the place, and of the plane through three of them. A dozen operations on numbers no
+/// larger than the coordinates.
+constexpr double kPlaneUnits = 64.0 * 0x1p-53;
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 }  // namespace
 
@@ -61,6 +67,11 @@ rays::ExactTriangle placed(const InstanceItem& item, const rays::BvhTriangle& tr
     const glm::dvec3 origin_m = item.translation_ws_m - from_ws_m;
     const auto corner = [&](const glm::vec3& corner_ms) { return item.basis * glm::dvec3(corner_ms) + origin_m; };
     return {corner(triangle.a), corner(triangle.b), corner(triangle.c)};
+}
+
+double corner_error_m(const InstanceItem& item, const rays::ExactTriangle& triangle, const glm::dvec3& from_ws_m) {
+    return kPlaneUnits * (largest(from_ws_m) + largest(item.translation_ws_m) + largest(triangle.a) +
+                          largest(triangle.b) + largest(triangle.c));
 }
 
 bool is_there(const assets::MeshLibrary& library, const InstanceItem& item, const rays::BvhTriangle& triangle,

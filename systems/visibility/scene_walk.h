@@ -63,6 +63,9 @@ private:
 /// Computes the corners of an instance's triangle relative to a ray's origin.
 rays::ExactTriangle placed(const InstanceItem& item, const rays::BvhTriangle& triangle, const glm::dvec3& from_ws_m);
 
+/// Bounds the rounding of placed() corners, and of the plane through them.
+double corner_error_m(const InstanceItem& item, const rays::ExactTriangle& triangle, const glm::dvec3& from_ws_m);
+
 /// Returns false if the triangle's mask lets light through at the hit.
 bool is_there(const assets::MeshLibrary& library, const InstanceItem& item, const rays::BvhTriangle& triangle,
               const rays::ExactHit& hit);

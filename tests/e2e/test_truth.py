@@ -143,6 +143,18 @@ class Truth(GameTest):
         self.assertGreater(pure(far_picture, 2), pure(fair_picture, 2) + 1000)
         self.assertGreater(pure(none_picture, 0), pure(fair_picture, 0) + 1000)
 
+    def test_colours_behind_glass_are_judged_by_rays(self):
+        panes = "--scene", "panes"
+        by_maps, by_rays, coarse, none = (self.judged(*panes, *settings)[0]["spot"] for settings in (
+            (), ("--set", "filter=exact"), ("--set", "resolution=64"), ("--set", "translucent_casters=off")))
+        for light in by_maps, by_rays, coarse:
+            self.assertGreater(light["tint"]["tinted_px"], 1000)
+        self.assertLess(by_maps["tint"]["tinted_error"], 2.0 / 255.0)
+        self.assertLess(by_rays["tint"]["tinted_error"], 0.5 * by_maps["tint"]["tinted_error"])
+        self.assertGreater(coarse["tint"]["tinted_error"], 3.0 * by_maps["tint"]["tinted_error"])
+        self.assertNotIn("tint", none)
+        self.assertNotIn("tint", self.judged()[0]["sun"], "the courtyard has no glass")
+
     def test_one_lights_errors_can_be_shown_alone(self):
         wrong = ("--set", "bias=5")
         _, worst = self.judged(*wrong)

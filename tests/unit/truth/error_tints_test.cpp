@@ -56,6 +56,22 @@ TEST(ErrorTints, OfASourceWithASizeAreWrongByMoreThanAHalfNotByTheSideOfIt) {
     EXPECT_GT(far[2], far[0]);
 }
 
+TEST(ErrorTints, OfAChannelBehindGlassCountLikeThoseOfVisibility) {
+    const LightTruth truth = all_lit();
+    const std::vector<float> measured(kPixels, 1.0f);
+    std::vector<float> tint_off(kPixels, 0.0f);
+    const std::array light{DrawnLight{measured, &truth, tint_off}};
+    EXPECT_EQ(tinted(light), tinted(std::array{DrawnLight{measured, &truth}}));
+    tint_off[kMiddle] = -0.2f;
+    const auto dark = tint_at(tinted(light), kMiddle);
+    EXPECT_GT(dark[0], dark[2]) << "too dark";
+    EXPECT_LT(dark[3], 255);
+    tint_off[kMiddle] = 0.7f;
+    const auto bright = tint_at(tinted(light), kMiddle);
+    EXPECT_GT(bright[2], bright[0]) << "too bright";
+    EXPECT_EQ(bright[3], 255) << "by more than a half";
+}
+
 TEST(ErrorTints, AWrongPixelIsOpaqueInTheColourOfItsDirectionAndHasAHalo) {
     LightTruth truth = all_lit();
     std::vector<float> measured(kPixels, 1.0f);
