@@ -60,9 +60,9 @@ bool has_less(const LightReport& light) {
     return light.state == LightState::degraded || light.state == LightState::skipped;
 }
 
-const char* name_of(std::string_view share) {
-    if (share == "source") return "its source";
-    return share == "area" ? "pixels' areas" : "source and areas";
+const char* words_of(ShownShare share) {
+    if (share == ShownShare::source) return "its source";
+    return share == ShownShare::area ? "pixels' areas" : "source and areas";
 }
 
 /// Lights with a line of their own. More would hide the picture.
@@ -113,7 +113,7 @@ std::string figures(const JudgedLight& light, const LightReport& report, int wid
     if (light.soft) {
         const truth::SoftMetrics& m = *light.soft;
         std::snprintf(text, sizeof text, "%-*.*s by %s: mean error %.3f %%, where partly lit %.2f %%, leak %.3f %%",
-                      width, width, light.name.c_str(), name_of(light.by), 100.0 * m.mean_error,
+                      width, width, light.name.c_str(), words_of(light.by), 100.0 * m.mean_error,
                       100.0 * m.penumbra_error, 100.0 * m.umbra_leak);
         return light.tint ? text + (", glass " + tint_figure(light) + " %") : text;
     }

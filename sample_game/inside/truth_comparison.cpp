@@ -15,21 +15,36 @@ TracedSource source_of(const Light& light, const LightShadow& shadow) {
             light.width_m, light.height_m};
 }
 
-/// A share of a light, and its name.
-struct NamedTruth {
-    std::string_view name;
+struct ShownTruth {
+    ShownShare share;
     const truth::LightTruth& truth;
 };
 
+/// Returns the share's name in the stats.
+const char* name_of(ShownShare share) {
+    switch (share) {
+        case ShownShare::middle:
+            return "middle";
+        case ShownShare::source:
+            return "source";
+        case ShownShare::area:
+            return "area";
+        case ShownShare::source_and_area:
+            return "source_and_area";
+    }
+    return "";
+}
+
 /// Returns the truth of what the light's filter shows. `reported`: null for a light that has none.
-NamedTruth shown_share(const truth::TracedLight& traced, const LightReport* reported) {
-    const NamedTruth middle{"middle", traced.truth};
+ShownTruth shown_share(const truth::TracedLight& traced, const LightReport* reported) {
+    const ShownTruth middle{ShownShare::middle, traced.truth};
     if (reported == nullptr || reported->filter.filter == ShadowFilter::automatic) return middle;
     const shadow::FilterRow& row = shadow::filter_row(reported->filter.filter);
     const bool reads_area = traced.area && row.area_shares != shadow::AreaShares::none;
     if (row.width != shadow::FilterWidth::source || !traced.source)
-        return reads_area ? NamedTruth{"area", *traced.area} : middle;
-    return reads_area ? NamedTruth{"source_and_area", *traced.source_and_area} : NamedTruth{"source", *traced.source};
+        return reads_area ? ShownTruth{ShownShare::area, *traced.area} : middle;
+    return reads_area ? ShownTruth{ShownShare::source_and_area, *traced.source_and_area}
+                      : ShownTruth{ShownShare::source, *traced.source};
 }
 
 const LightReport* report_of(const FrameReport& report, ecs::Entity light) {
@@ -40,7 +55,7 @@ const LightReport* report_of(const FrameReport& report, ecs::Entity light) {
 
 nlohmann::ordered_json middle_stats(const JudgedLight& light, const truth::Metrics& m) {
     return {{"name", light.name},
-            {"judged_by", light.by},
+            {"judged_by", name_of(light.by)},
             {"scored_px", m.scored},
             {"wrong_px", m.wrong},
             {"false_shadow_px", m.false_shadow},
@@ -67,7 +82,7 @@ nlohmann::ordered_json tint_stats(const truth::TintMetrics& m) {
 
 nlohmann::ordered_json share_stats(const JudgedLight& light, const truth::SoftMetrics& m) {
     return {{"name", light.name},
-            {"judged_by", light.by},
+            {"judged_by", name_of(light.by)},
             {"scored_px", m.scored},
             {"false_shadow_px", m.false_shadow},
             {"false_light_px", m.false_light},
@@ -82,8 +97,7 @@ nlohmann::ordered_json share_stats(const JudgedLight& light, const truth::SoftMe
 
 void judge_tint(Frame& frame, const truth::TracedLight& traced, JudgedLight& light) {
     std::vector<glm::vec4> measured;
-    const bool reads_source =
-        traced.source && light.truth != &traced.truth && (!traced.area || light.truth != &*traced.area);
+    const bool reads_source = light.by == ShownShare::source || light.by == ShownShare::source_and_area;
     if (!traced.tint || reads_source || !frame.read_tint(light.entity, measured) ||
         measured.size() != traced.tint->passed.size())
         return;
@@ -169,8 +183,8 @@ void FrozenFrame::judge(Frame& frame, std::size_t index) {
     if (!frame.read_visibility(light.entity, light.measured)) light.measured.clear();
     const auto& lights = trace_->truth().lights;
     if (index < lights.size() && light.measured.size() == lights[index].truth.visibility.size()) {
-        const auto [name, truth] = shown_share(lights[index], report_of(frame.report(), light.entity));
-        light.by = name;
+        const auto [share, truth] = shown_share(lights[index], report_of(frame.report(), light.entity));
+        light.by = share;
         light.truth = &truth;
         if (&truth == &lights[index].truth)
             light.metrics = truth::compare({size_px_, light.measured, truth.visibility, truth.scored, truth.ambiguous});

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "gnomon/assets.h"
@@ -16,12 +15,16 @@
 
 namespace gnomon::game {
 
+/// What a filter shows of a light, and is judged by: its middle or all of its source, at pixels' middles or over their
+/// areas.
+enum class ShownShare : std::uint8_t { middle, source, area, source_and_area };
+
 /// A shadowed light of a frozen frame.
 struct JudgedLight {
     std::string name;
     ecs::Entity entity;
     std::vector<float> measured = {};       // its visibility, as it is drawn now; empty: not yet read, or unreadable
-    std::string_view by = {};               // share that it is judged by: middle, source, area, source_and_area
+    ShownShare by = ShownShare::middle;     // share that it is judged by
     const truth::LightTruth* truth = nullptr;  // that share; null: not judged
     std::optional<truth::Metrics> metrics;     // accuracy of `measured` by the light's middle at pixels' middles
     std::optional<truth::SoftMetrics> soft;    // the same by a share: of its source, of pixels' areas, or of both

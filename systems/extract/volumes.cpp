@@ -24,6 +24,11 @@ glm::dvec2 half_extent(const ConsumerItem& c) {
     return {half_y * aspect(c), half_y};
 }
 
+double squared_corner_slant(const ConsumerItem& c) {
+    const glm::dvec2 half = half_extent(c);
+    return 1.0 + half.x * half.x + half.y * half.y;
+}
+
 math::Frustum consumer_frustum(const ConsumerItem& c) { return frustum_from(c.position_ws_m, c, c.near_m, c.far_m); }
 
 math::Frustum consumer_frustum(const ConsumerItem& c, double near_m) {

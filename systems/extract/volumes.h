@@ -12,6 +12,9 @@ double aspect(const ConsumerItem& consumer);
 /// Computes half the extent of its picture along its axes: tangents, or metres if it is orthographic.
 glm::dvec2 half_extent(const ConsumerItem& consumer);
 
+/// Computes the square of a distance over its view depth, for a corner of its picture in perspective: the largest.
+double squared_corner_slant(const ConsumerItem& consumer);
+
 /// Computes the consumer's view volume in world space, optionally with another near or far plane.
 math::Frustum consumer_frustum(const ConsumerItem& consumer);
 math::Frustum consumer_frustum(const ConsumerItem& consumer, double near_m);

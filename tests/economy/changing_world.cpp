@@ -9,13 +9,12 @@
 namespace gnomon {
 namespace {
 
-constexpr double kArena_m = 8.0;
 constexpr double kStill = 0.5;  // share of the frames in which nothing changes
 
 }  // namespace
 
 ChangingWorld::ChangingWorld(std::uint64_t seed, std::vector<ShadowFilter> filters)
-    : random_(seed), filters_(std::move(filters)) {
+    : RandomChoice(seed), filters_(std::move(filters)) {
     world_.add_mesh(kPlane, {0, 0, 0}, false);
     add_camera();
     for (std::size_t i = 0; i < kMostLights / 2; ++i) add_light();
@@ -24,11 +23,6 @@ ChangingWorld::ChangingWorld(std::uint64_t seed, std::vector<ShadowFilter> filte
 
 std::uint32_t ChangingWorld::below(std::size_t count) {
     return std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(count) - 1)(random_);
-}
-
-glm::dvec3 ChangingWorld::place(double low_m, double high_m) {
-    const double x = number(-kArena_m, kArena_m), y = number(low_m, high_m), z = number(-kArena_m, kArena_m);
-    return {x, y, z};
 }
 
 void ChangingWorld::put_any_shadow(ecs::Entity light) {

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
-#include <random>
 #include <vector>
 
+#include "tests/system/random_choice.h"
 #include "tests/system/test_world.h"
 
 namespace gnomon {
@@ -10,7 +10,7 @@ namespace gnomon {
 /// A world in which anything may change from one frame to the next, the same way for the same seed. Lights, casters and
 /// up to three cameras appear, move, take other settings, turn away, and vanish. Half of the frames change nothing, so
 /// that there is something to save.
-class ChangingWorld {
+class ChangingWorld : RandomChoice {
 public:
     /// Makes a world with a plane, a camera, some lights and casters. `filters`: what lights choose from; each one
     /// costs programs.
@@ -23,14 +23,11 @@ public:
     static constexpr std::size_t kMostLights = 5, kMostCasters = 12, kMostCameras = 3;
 
 private:
-    double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-    bool chance(double share) { return number(0.0, 1.0) < share; }
     std::uint32_t below(std::size_t count);
     template <class T>
     const T& any_of(const std::vector<T>& from) {
         return from[below(from.size())];
     }
-    glm::dvec3 place(double low_m, double high_m);
     void put_any_shadow(ecs::Entity light);
     void add_light();
     void add_caster();
@@ -40,7 +37,6 @@ private:
     void change_caster(ecs::Entity caster);
     void remove_one(std::vector<ecs::Entity>& from);
 
-    std::mt19937_64 random_;
     std::vector<ShadowFilter> filters_;
     TestWorld world_;
     std::vector<ecs::Entity> lights_, casters_, cameras_;

@@ -17,8 +17,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double kSoakArena_m = 8.0;
-
 /// A kind of light with a filter.
 struct Row {
     LightKind kind;
@@ -39,19 +37,13 @@ std::vector<Row> soaked_rows() {
 
 }  // namespace
 
-SoakWorld::SoakWorld(std::uint64_t seed) : random_(seed) {
+SoakWorld::SoakWorld(std::uint64_t seed) : RandomChoice(seed) {
     world_.add_mesh(kPlane, {0, 0, 0}, false);
     camera_ = world_.add_camera({0, 6, 10}, {0, 0, 0});
 }
 
 ecs::Entity& SoakWorld::any_of(std::vector<ecs::Entity>& from) {
     return from[std::uniform_int_distribution<std::size_t>(0, from.size() - 1)(random_)];
-}
-
-glm::dvec3 SoakWorld::place(double low_m, double high_m) {
-    const double x = number(-kSoakArena_m, kSoakArena_m), y = number(low_m, high_m),
-                 z = number(-kSoakArena_m, kSoakArena_m);
-    return {x, y, z};
 }
 
 void SoakWorld::add_light(LightKind kind, ShadowFilter filter) {

@@ -2,17 +2,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <random>
 #include <vector>
 
 #include "systems/frame_system.h"
+#include "tests/system/random_choice.h"
 #include "tests/system/test_world.h"
 
 namespace gnomon {
 
 /// A world that never stays the same: lights and casters come, move, change and go at random, the same way for the
 /// same seed. Ground and camera stay.
-class SoakWorld {
+class SoakWorld : RandomChoice {
 public:
     explicit SoakWorld(std::uint64_t seed);
 
@@ -29,17 +29,13 @@ public:
 private:
     void leave_to_rays(const std::function<void()>& run_frame);
     void use_every_light(const std::function<void()>& run_frame);
-    double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-    bool chance(double share) { return number(0.0, 1.0) < share; }
     ecs::Entity& any_of(std::vector<ecs::Entity>& from);
-    glm::dvec3 place(double low_m, double high_m);
     void add_light(LightKind kind, ShadowFilter filter);
     void add_caster();
     void churn_lights();
     void change_light(ecs::Entity light);
     void remove_one(std::vector<ecs::Entity>& from);
 
-    std::mt19937_64 random_;
     TestWorld world_;
     ecs::Entity camera_;
     std::vector<ecs::Entity> lights_, casters_;

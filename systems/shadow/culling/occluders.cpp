@@ -21,10 +21,7 @@ double size_rad(const math::Aabb& box, const glm::dvec3& eye_ws_m) {
 }
 
 /// Returns the distance of the near plane's farthest corner from the camera.
-double near_reach_m(const ConsumerItem& camera) {
-    const glm::dvec2 half = half_extent(camera);
-    return camera.near_m * std::sqrt(1.0 + half.x * half.x + half.y * half.y);
-}
+double near_reach_m(const ConsumerItem& camera) { return camera.near_m * std::sqrt(squared_corner_slant(camera)); }
 
 /// Returns the instance's occluder; with an empty box if it is none.
 Occluder occluder_of(const InstanceItem& item, const math::Aabb& inner_ms, const ConsumerItem& camera) {

@@ -117,8 +117,7 @@ double proxy_bound_of(const ConsumerItem& consumer, double allowed_px) {
     const double metre_px = kTwice * kSteepestReceiver / pixel_footprint(consumer);
     if (consumer.projection != CameraProjection::perspective) return allowed_px / metre_px;
     // At a distance d the view depth is d / k or more, and a metre covers k / depth footprints or fewer.
-    const glm::dvec2 half = half_extent(consumer);
-    return allowed_px / (metre_px * (1.0 + half.x * half.x + half.y * half.y));
+    return allowed_px / (metre_px * squared_corner_slant(consumer));
 }
 
 void choose_proxies(const SceneSnapshot& scene, const MapSettings& map, ShadowView& view,

@@ -44,9 +44,7 @@ class PixelsPerMetre {
 public:
     explicit PixelsPerMetre(const ConsumerItem& consumer)
         : perspective_(is_perspective(consumer)), footprint_(pixel_footprint(consumer)) {
-        if (!perspective_) return;
-        const glm::dvec2 half = half_extent(consumer);
-        slant_ = std::sqrt(1.0 + half.x * half.x + half.y * half.y);
+        if (perspective_) slant_ = std::sqrt(squared_corner_slant(consumer));
     }
     double at(double depth_m) const { return perspective_ ? slant_ / (depth_m * footprint_) : 1.0 / footprint_; }
 
