@@ -80,32 +80,30 @@ void BoundsTree::append_tree() {
     growth_ += static_cast<double>(nodes_.size() - root);
 }
 
-/// Takes the removed items out and numbers the others in their order, with gaps for the added ones.
+/// Takes the removed items out and numbers the others in their order, with gaps for the added ones. Items before the
+/// first of both keep their number.
 void BoundsTree::renumber(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added) {
-    number_.resize(size());
-    std::uint32_t next = 0;
+    const auto count = static_cast<std::uint32_t>(size());
+    const std::uint32_t first =
+        std::min(removed.empty() ? count : removed.front(), added.empty() ? count : added.front());
+    slots_.assign(slot_of_.begin() + first, slot_of_.end());
+    slot_of_.resize(count - removed.size() + added.size());
+    std::uint32_t next = first;
     auto gone = removed.begin();
     auto came = added.begin();
-    for (std::uint32_t i = 0; i < number_.size(); ++i) {
+    for (std::uint32_t i = first; i < count; ++i) {
+        const std::uint32_t slot = slots_[i - first];
         if (gone != removed.end() && *gone == i) {
-            number_[i] = kNone;
+            items_[slot] = {{}, kNone};
+            moved_.push_back(slot);
             ++gone;
             continue;
         }
         for (; came != added.end() && *came == next; ++came) ++next;
-        number_[i] = next++;
-    }
-    for (const std::uint32_t i : removed) {
-        items_[slot_of_[i]].box = {};
-        moved_.push_back(slot_of_[i]);
+        items_[slot].item = next;
+        slot_of_[next++] = slot;
     }
     removed_ += removed.size();
-    slot_of_.resize(number_.size() - removed.size() + added.size());
-    for (std::uint32_t s = 0; s < items_.size(); ++s) {
-        std::uint32_t& item = items_[s].item;
-        if (item != kNone) item = number_[item];
-        if (item != kNone) slot_of_[item] = s;
-    }
     refit();
     if (removed_ * 2 > items_.size()) build_nodes();
 }

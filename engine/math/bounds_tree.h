@@ -163,7 +163,7 @@ private:
     std::vector<Tree> trees_;             // by rising node and slot
     std::vector<BvhItem<Aabb>> items_;    // by slot; kNone with an empty box: a removed item
     std::vector<std::uint32_t> slot_of_;  // by item
-    std::vector<std::uint32_t> number_;   // scratch: new number by old one
+    std::vector<std::uint32_t> slots_;    // scratch: slot_of_ before a splice
     std::size_t removed_ = 0;             // slots of removed items
     std::vector<std::uint32_t> leaf_of_;  // leaf node by slot
     std::vector<std::uint32_t> parent_;   // by node

@@ -46,8 +46,7 @@ void LayeredScene::update(const SceneSnapshot& whole, std::span<const ConsumerIt
     scene_.instances = whole.instances;
     for (InstanceItem& item : scene_.instances) restrict_layers(item);
     scene_.gpu_slot_count = whole.gpu_slot_count;
-    scene_.any_drawable = whole.any_drawable;
-    scene_.any_by_depth = whole.any_by_depth;
+    scene_.drawables = whole.drawables;
     scene_.air = whole.air;
     scene_.list_version = whole.list_version;
     scene_.meshes = whole.meshes;

@@ -224,7 +224,7 @@ bool SceneStore::put_changes() {
         Caster* caster = casters_.find(id);
         if (!caster || (!caster->moved && !caster->marked)) continue;
         if (caster->moved) caster->version = snapshot_.version;
-        if (caster->marked) snapshot_.list_version = snapshot_.version;
+        if (caster->marked) snapshot_.renew_list();
         put(*caster, id, snapshot_.instances[caster->instance]);
         snapshot_.changed_instances.push_back(caster->instance);
         caster->moved = caster->marked = false;
@@ -265,10 +265,10 @@ void SceneStore::note_casters(std::uint32_t first) {
         const bool may_hold = first == 0 || before || std::any_of(splice_.added.begin(), splice_.added.end(), is);
         return may_hold && std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(), is);
     };
-    snapshot_.any_by_depth =
-        holds(snapshot_.any_by_depth, [](const InstanceItem& item) { return item.drawable.by_depth; });
-    snapshot_.any_drawable =
-        holds(snapshot_.any_drawable, [](const InstanceItem& item) { return item.drawable.drawn; });
+    snapshot_.drawables.any_by_depth =
+        holds(snapshot_.drawables.any_by_depth, [](const InstanceItem& item) { return item.drawable.by_depth; });
+    snapshot_.drawables.any_drawn =
+        holds(snapshot_.drawables.any_drawn, [](const InstanceItem& item) { return item.drawable.drawn; });
     snapshot_.air.any = holds(snapshot_.air.any, is_air);
     snapshot_.gpu_slot_count = casters_.bound();
     if (std::exchange(shapes_version_, library_.version) == library_.version) return;
@@ -296,7 +296,7 @@ void SceneStore::list_instances() {
         caster.moved = caster.marked = false;
     });
     note_casters(0);
-    snapshot_.list_version = snapshot_.version;
+    snapshot_.renew_list();
     build_tree(snapshot_);
 }
 

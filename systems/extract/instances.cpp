@@ -242,7 +242,7 @@ void InstanceExtractor::list(const ecs::Registry& registry, const assets::MeshLi
         // An instance that move() already moved before it failed equals itself, but is not on the device.
         if (!same || was->version == snapshot.version) snapshot.changed_instances.push_back(i);
     }
-    snapshot.list_version = snapshot.version;
+    snapshot.renew_list();
     build_tree(snapshot);
 }
 
@@ -358,7 +358,7 @@ bool InstanceExtractor::mark(const ecs::Registry& registry, std::span<const ecs:
         any = any || marks != Marks::same;
         if (marks == Marks::recorded && item.version != snapshot.version) snapshot.changed_instances.push_back(i);
     }
-    if (any) snapshot.list_version = snapshot.version;
+    if (any) snapshot.renew_list();
     return any;
 }
 
@@ -373,7 +373,7 @@ bool InstanceExtractor::change_fog(const ecs::Registry& registry, std::span<cons
         snapshot.instances[i].version = snapshot.version;
         any = true;
     }
-    if (any) snapshot.list_version = snapshot.version;
+    if (any) snapshot.renew_list();
     if (any) list_fogs(registry, snapshot);
     return any;
 }

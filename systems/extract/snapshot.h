@@ -184,6 +184,20 @@ struct SceneSnapshot;
 /// Returns the mesh's pose; null: at rest.
 const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh);
 
+/// Instances of drawables that a list has.
+struct DrawableKinds {
+    bool any_drawn = false;     // DrawableMotion::drawn is set for some instance
+    bool any_by_depth = false;  // DrawableMotion::by_depth is set for some instance
+};
+
+/// Step from one list of instances to another by which instances came and went, and none changed what it shows or
+/// casts.
+struct ListSplice {
+    std::uint64_t from_version = 0, to_version = 0;  // list_version before and after. 0: no such step
+    std::vector<std::uint32_t> removed;              // indices before, rising
+    std::vector<std::uint32_t> added;                // indices after, rising
+};
+
 /// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give
 /// equal snapshots.
 struct SceneSnapshot {
@@ -197,14 +211,19 @@ struct SceneSnapshot {
     std::vector<DroppedEntity> dropped;
     std::vector<std::uint32_t> changed_instances;  // instances to upload in this frame, sorted by gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
-    bool any_drawable = false;                     // DrawableMotion::drawn is set for some instance
-    bool any_by_depth = false;                     // DrawableMotion::by_depth is set for some instance
+    DrawableKinds drawables = {};
     SceneAir air = {};
     std::uint64_t version = 0;  // grows with every change; by 1 if changed_instances has all instances with a new
                                 // version. 0: changes are not counted, and everything is always new
     /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:
     /// unknown.
     std::uint64_t list_version = 0;
+    ListSplice list_splice = {};  // how list_version came from the one before, where instances only came and went
+    /// Notes that any instance may differ from the list before, in number or in what it shows or casts.
+    void renew_list() {
+        list_version = version;
+        list_splice.to_version = 0;
+    }
     math::BoundsTree tree;           // over the instances' bounds, built by systems/extract/scene_tree.h; optional
     std::uint64_t tree_version = 0;  // version of the tree; unused if it differs from `version`
 };

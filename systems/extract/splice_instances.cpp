@@ -52,6 +52,10 @@ std::uint32_t splice_instances(SceneSnapshot& scene, InstanceSplice& splice) {
     const std::size_t without = take_out(scene.instances, splice.removed);
     const std::size_t with = put_in(scene.instances, splice.added, splice.added_at);
     scene.changed_instances = splice.added_at;
+    scene.list_splice.from_version = scene.list_version;
+    scene.list_splice.to_version = scene.version;
+    scene.list_splice.removed = splice.removed;
+    scene.list_splice.added = splice.added_at;
     scene.list_version = scene.tree_version = scene.version;
     scene.tree.splice(splice.removed, splice.added_at, [&](std::uint32_t i) { return scene.instances[i].bounds_ws; });
     return static_cast<std::uint32_t>(std::min(without, with));

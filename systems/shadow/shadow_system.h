@@ -81,8 +81,8 @@ public:
     /// Sets the function that is called after each stage, for tests and tools. Empty: none.
     void watch_stages(StageWatch watch) { watch_ = std::move(watch); }
 
-    /// Returns the draws into maps that the engine makes before it submits the frame's list (SceneSnapshot::
-    /// any_drawable).
+    /// Returns the draws into maps that the engine makes before it submits the frame's list (DrawableKinds::
+    /// any_drawn).
     std::span<const EngineDraw> engine_draws() const {
         return reused_ ? std::span<const EngineDraw>() : depth_pass_.engine_draws();
     }

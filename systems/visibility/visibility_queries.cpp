@@ -25,7 +25,8 @@ struct VisibilityQueries::State {
     /// Brings the tree over the casters to where they are.
     void settle() {
         if (relisted || !has_tree(scene)) {
-            scene.list_version = ++scene.version;
+            ++scene.version;
+            scene.renew_list();
             build_tree(scene);
         } else if (!scene.changed_instances.empty()) {
             ++scene.version;

@@ -295,8 +295,9 @@ void LightFit::select_sets_again() {
 /// Returns whether the filter treats any caster of the view by depth, because its triangles are unknown.
 bool LightFit::has_casters_by_depth(const ShadowView& view) const {
     const auto casters = out_.casters_of(view);
-    return scene_.any_by_depth &&
-           std::any_of(casters.begin(), casters.end(), [&](std::uint32_t i) { return scene_.instances[i].drawable.by_depth; });
+    return scene_.drawables.any_by_depth && std::any_of(casters.begin(), casters.end(), [&](std::uint32_t i) {
+               return scene_.instances[i].drawable.by_depth;
+           });
 }
 
 /// Selects the casters of each view. A cube's face may be drawn without casters: a filter that reads across seams must

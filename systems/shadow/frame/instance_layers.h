@@ -10,7 +10,8 @@ namespace gnomon::shadow {
 /// 208 bytes.
 class InstanceLayers {
 public:
-    /// Reads the scene's instances, unless its list_version is that of the last call.
+    /// Reads the scene's instances: none if its list_version is that of the last call, and new ones alone after a
+    /// ListSplice.
     void update(const SceneSnapshot& scene);
     /// Returns casts_under() of an instance.
     bool casts_under(const LightItem& light, std::uint32_t i) const { return (light.shadow.layers & casts_[i]) != 0; }
@@ -22,7 +23,10 @@ public:
     bool all_show_shadows_of(const LightItem& light) const { return (light.shadow.layers & shown_by_all_) != 0; }
 
 private:
+    void read(const InstanceItem& item, std::size_t i);
+
     std::vector<ShadowLayers> casts_, shows_;  // 0: none
+    std::vector<ShadowLayers> allows_;         // shows_, but of what is not visible all
     ShadowLayers shown_by_all_ = 0;            // in which all visible instances are
     std::uint64_t list_version_ = 0;           // the scene's at the last update()
 };

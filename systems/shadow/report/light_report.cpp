@@ -134,7 +134,8 @@ void explain_savings(const LightItem& light, const ShadowRequest& request, std::
 
 /// Counts the casters of a light that its filter treats by depth, where it reads triangles of others.
 std::uint32_t casters_by_depth(const SceneSnapshot& scene, const LightSetsView& sets, ShadowFilter filter) {
-    if (!scene.any_by_depth || filter == ShadowFilter::automatic || !filter_row(filter).storage.triangle_ids) return 0;
+    if (!scene.drawables.any_by_depth || filter == ShadowFilter::automatic || !filter_row(filter).storage.triangle_ids)
+        return 0;
     const auto casters = sets.casters();
     return static_cast<std::uint32_t>(std::count_if(
         casters.begin(), casters.end(), [&](std::uint32_t i) { return scene.instances[i].drawable.by_depth; }));

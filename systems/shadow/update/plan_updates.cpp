@@ -87,7 +87,7 @@ void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, c
 
 /// Marks the views in which the engine draws casters.
 void mark_engine_draws(const SceneSnapshot& scene, const UpdateInputs& inputs, std::vector<UpdatePlan>& plans) {
-    if (!scene.any_drawable) return;
+    if (!scene.drawables.any_drawn) return;
     for (std::size_t v = 0; v < plans.size(); ++v) {
         if (!inputs.maps[v].texture || plans[v].skipped_for_rays || plans[v].reuse) continue;
         const auto casters = inputs.fitted.casters_of(inputs.fitted.views[v]);

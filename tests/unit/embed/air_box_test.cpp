@@ -53,7 +53,7 @@ TEST_F(AirBox, ReceivesInItsBoundsAndDoesNotCast) {
     EXPECT_EQ(air()->receive_layers, 4);
     EXPECT_NEAR(air()->bounds_ws.max.x, 5.0 + std::sqrt(2.0), 1e-9);
     EXPECT_NEAR(air()->bounds_ws.max.z, 1.0, 1e-9);
-    EXPECT_FALSE(scene.any_by_depth);
+    EXPECT_FALSE(scene.drawables.any_by_depth);
 }
 
 TEST_F(AirBox, ComesMovesAndGoesInPlace) {

@@ -59,7 +59,7 @@ TEST_F(SceneStoreTest, AChangedBoxChangesItsCastersAlone) {
     add_at(box, {8.0, 0.0, 0.0});
     const SceneSnapshot& scene = updated();
     ASSERT_EQ(scene.instances.size(), 3u);
-    EXPECT_TRUE(scene.any_by_depth);
+    EXPECT_TRUE(scene.drawables.any_by_depth);
     EXPECT_FALSE(scene.instances[0].drawable.by_depth);
     EXPECT_TRUE(scene.instances[1].drawable.by_depth && scene.instances[2].drawable.by_depth);
     const std::uint64_t stays = scene.instances[0].version, mesh_version = scene.instances[1].mesh_version;
@@ -305,7 +305,7 @@ TEST_F(SceneStoreTest, ADrawableIsACasterWithoutTriangles) {
     const CasterId grass = store.add_drawable({.draw = draw, .bounds = {{0.0, 0.0, 0.0}, {2.0, 1.0, 2.0}}});
     const SceneSnapshot& scene = updated();
     ASSERT_EQ(scene.instances.size(), 1u);
-    EXPECT_TRUE(scene.any_drawable);
+    EXPECT_TRUE(scene.drawables.any_drawn);
     EXPECT_TRUE(scene.instances[0].drawable.drawn);
     EXPECT_TRUE(store.library().meshes[scene.instances[0].mesh].indices.empty());
     EXPECT_NE(store.draw_of(0), nullptr);
@@ -325,7 +325,7 @@ TEST_F(SceneStoreTest, ADrawableIsACasterWithoutTriangles) {
     EXPECT_EQ(store.snapshot().instances[0].drawable.since, since + 3);
     store.redraw(grass, {{0.0, 0.0, 0.0}, {-1.0, 1.0, 2.0}}, 0.25);
     EXPECT_TRUE(updated().instances.empty()) << "no box";
-    EXPECT_FALSE(store.snapshot().any_drawable);
+    EXPECT_FALSE(store.snapshot().drawables.any_drawn);
     EXPECT_EQ(store.dropped().size(), 1u);
     store.remove(grass);
     updated();

@@ -206,7 +206,7 @@ TEST_P(FittedFilter, IsTheKeepingOneForEdgesOfCastersByDepth) {
         SceneSnapshot s = scene(random, 0.0f);
         s.lights[0].shadow = {.max_error_px = 1.0f};
         EXPECT_EQ(filter(fitted(s)), kDefaultFilter) << "walks find edges by any texels";
-        s.any_by_depth = true;
+        s.drawables.any_by_depth = true;
         for (auto& instance : s.instances) instance.drawable.by_depth = true;
         SceneSnapshot named = s;
         named.lights[0].shadow.filter = kDefaultFilter;
