@@ -80,29 +80,16 @@ void BoundsTree::append_tree() {
     growth_ += static_cast<double>(nodes_.size() - root);
 }
 
-/// Takes the removed items out and numbers the others in their order, with gaps for the added ones. Items before the
-/// first of both keep their number.
+/// Takes the removed items out and numbers the others in their order, with gaps for the added ones.
 void BoundsTree::renumber(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added) {
-    const auto count = static_cast<std::uint32_t>(size());
-    const std::uint32_t first =
-        std::min(removed.empty() ? count : removed.front(), added.empty() ? count : added.front());
-    slots_.assign(slot_of_.begin() + first, slot_of_.end());
-    slot_of_.resize(count - removed.size() + added.size());
-    std::uint32_t next = first;
-    auto gone = removed.begin();
-    auto came = added.begin();
-    for (std::uint32_t i = first; i < count; ++i) {
-        const std::uint32_t slot = slots_[i - first];
-        if (gone != removed.end() && *gone == i) {
-            items_[slot] = {{}, kNone};
-            moved_.push_back(slot);
-            ++gone;
-            continue;
-        }
-        for (; came != added.end() && *came == next; ++came) ++next;
-        items_[slot].item = next;
-        slot_of_[next++] = slot;
+    for (const std::uint32_t i : removed) {
+        items_[slot_of_[i]] = {{}, kNone};
+        moved_.push_back(slot_of_[i]);
     }
+    list_moves(static_cast<std::uint32_t>(size()), removed, added, moves_);
+    apply_moves<std::uint32_t>(moves_, size() - removed.size() + added.size(), slot_of_);
+    for (const PlaceMove& move : moves_)
+        for (std::uint32_t i = move.to; i < move.to + move.count; ++i) items_[slot_of_[i]].item = i;
     removed_ += removed.size();
     refit();
     if (removed_ * 2 > items_.size()) build_nodes();

@@ -254,15 +254,16 @@ bool SceneStore::splice_casters() {
     return true;
 }
 
-/// Notes where the casters of the instances from `first` on are, and what the list holds.
-void SceneStore::note_casters(std::uint32_t first) {
-    for (std::uint32_t i = first; i < snapshot_.instances.size(); ++i) {
+/// Notes where the casters of changed indices are, and what the list holds.
+void SceneStore::note_casters(IndexRange changed) {
+    for (std::uint32_t i = changed.first; i < changed.end; ++i) {
         const ecs::Entity entity = snapshot_.instances[i].entity;
         casters_.find({entity.index, entity.version})->instance = i;
     }
     // What the list had not and nothing added has, it has not now: then no instance is looked at.
+    const bool is_new = changed.first == 0 && changed.end == snapshot_.instances.size();
     const auto holds = [&](bool before, const auto& is) {
-        const bool may_hold = first == 0 || before || std::any_of(splice_.added.begin(), splice_.added.end(), is);
+        const bool may_hold = is_new || before || std::any_of(splice_.added.begin(), splice_.added.end(), is);
         return may_hold && std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(), is);
     };
     snapshot_.drawables.any_by_depth =
@@ -295,7 +296,7 @@ void SceneStore::list_instances() {
         put(caster, id, snapshot_.instances.emplace_back());
         caster.moved = caster.marked = false;
     });
-    note_casters(0);
+    note_casters({0, static_cast<std::uint32_t>(snapshot_.instances.size())});
     snapshot_.renew_list();
     build_tree(snapshot_);
 }

@@ -78,7 +78,7 @@ private:
     void change(CasterId id, Caster& caster, const CasterDesc& desc);
     bool put_changes();
     bool splice_casters();
-    void note_casters(std::uint32_t first);
+    void note_casters(IndexRange changed);
     void exchange_mesh(CasterId id, Caster& caster);
     void note_changed_meshes();
     void list_instances();

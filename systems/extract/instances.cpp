@@ -149,8 +149,8 @@ bool InstanceExtractor::is_listed(ecs::Entity e, const SceneSnapshot& snapshot) 
 }
 
 /// Notes where the instances from `first` on are.
-void InstanceExtractor::note_places(std::uint32_t first, const SceneSnapshot& snapshot) {
-    for (std::uint32_t i = first; i < snapshot.instances.size(); ++i) {
+void InstanceExtractor::note_places(IndexRange changed, const SceneSnapshot& snapshot) {
+    for (std::uint32_t i = changed.first; i < changed.end; ++i) {
         const std::uint32_t index = snapshot.instances[i].entity.index;
         if (index >= instance_of_.size()) instance_of_.resize(index + 1u, kNone);
         instance_of_[index] = i;
@@ -219,7 +219,7 @@ void InstanceExtractor::list(const ecs::Registry& registry, const assets::MeshLi
     });
     std::sort(snapshot.instances.begin(), snapshot.instances.end(), earlier);
     instance_of_.assign(instance_of_.size(), kNone);
-    note_places(0, snapshot);
+    note_places({0, static_cast<std::uint32_t>(snapshot.instances.size())}, snapshot);
     free_slots(snapshot);
     for (InstanceItem& item : snapshot.instances) item.gpu_slot = slot_for(item.entity);
     snapshot.gpu_slot_count = static_cast<std::uint32_t>(slot_owner_.size());

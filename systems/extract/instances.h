@@ -61,7 +61,7 @@ private:
                 const SceneSnapshot& snapshot, std::vector<InstanceItem>& items);
     std::uint32_t listed_at(ecs::Entity e) const;
     bool is_listed(ecs::Entity e, const SceneSnapshot& snapshot) const;
-    void note_places(std::uint32_t first, const SceneSnapshot& snapshot);
+    void note_places(IndexRange changed, const SceneSnapshot& snapshot);
     void note_bent(const SceneSnapshot& snapshot);
     std::uint32_t slot_for(ecs::Entity e);
     void free_slots(const SceneSnapshot& snapshot);

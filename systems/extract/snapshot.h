@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/place_moves.h"
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
 #include "engine/math/shape_tree.h"
@@ -194,8 +195,9 @@ struct DrawableKinds {
 /// casts.
 struct ListSplice {
     std::uint64_t from_version = 0, to_version = 0;  // list_version before and after. 0: no such step
-    std::vector<std::uint32_t> removed;              // indices before, rising
+    std::size_t count = 0;                           // instances before
     std::vector<std::uint32_t> added;                // indices after, rising
+    std::vector<PlaceMove> moves;                    // of the instances whose index changed
 };
 
 /// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give

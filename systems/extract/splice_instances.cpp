@@ -6,37 +6,28 @@
 namespace gnomon {
 namespace {
 
-/// Takes out the items at rising indices. Returns the first index with another item.
-std::size_t take_out(std::vector<InstanceItem>& items, std::span<const std::uint32_t> indices) {
-    if (indices.empty()) return items.size();
-    std::size_t to = indices.front(), next = 0;
-    for (std::size_t from = to; from < items.size(); ++from) {
-        if (next < indices.size() && indices[next] == from)
-            ++next;
-        else
-            items[to++] = items[from];
+/// Fills added_at: each added item comes behind all kept ones with an index up to its own.
+void place_added(std::span<const InstanceItem> items, InstanceSplice& splice) {
+    splice.added_at.clear();
+    std::size_t gone = 0;
+    for (const InstanceItem& item : splice.added) {
+        const auto behind =
+            std::upper_bound(items.begin(), items.end(), item.entity.index,
+                             [](std::uint32_t index, const InstanceItem& other) { return index < other.entity.index; });
+        const auto before = static_cast<std::uint32_t>(behind - items.begin());
+        while (gone < splice.removed.size() && splice.removed[gone] < before) ++gone;
+        splice.added_at.push_back(static_cast<std::uint32_t>(before - gone + splice.added_at.size()));
     }
-    items.resize(to);
-    return indices.front();
 }
 
-/// Puts sorted items in, from the back, and lists where they are. Returns the first index with another item.
-std::size_t put_in(std::vector<InstanceItem>& items, std::span<const InstanceItem> added,
-                   std::vector<std::uint32_t>& added_at) {
-    added_at.resize(added.size());
-    std::size_t from = items.size(), left = added.size();
-    items.resize(from + left);
-    while (left > 0) {
-        const InstanceItem& item = added[left - 1];
-        const std::size_t at = from + left - 1;
-        if (from > 0 && items[from - 1].entity.index > item.entity.index) {
-            items[at] = items[--from];
-            continue;
-        }
-        items[at] = item;
-        added_at[--left] = static_cast<std::uint32_t>(at);
-    }
-    return added.empty() ? items.size() : added_at.front();
+/// Returns the range of all indices after the step that may have another instance.
+IndexRange changed_by(const ListSplice& step, std::size_t count) {
+    const auto all = static_cast<std::uint32_t>(count);
+    IndexRange changed{all, 0};
+    if (!step.added.empty()) changed = {step.added.front(), step.added.back() + 1};
+    if (step.moves.empty()) return {std::min(changed.first, all), changed.end};
+    const PlaceMove& last = step.moves.back();
+    return {std::min(changed.first, step.moves.front().to), std::max(changed.end, last.to + last.count)};
 }
 
 }  // namespace
@@ -47,18 +38,21 @@ void InstanceSplice::clear() {
     added_at.clear();
 }
 
-std::uint32_t splice_instances(SceneSnapshot& scene, InstanceSplice& splice) {
+IndexRange splice_instances(SceneSnapshot& scene, InstanceSplice& splice) {
     for (InstanceItem& item : splice.added) item.version = scene.version;
-    const std::size_t without = take_out(scene.instances, splice.removed);
-    const std::size_t with = put_in(scene.instances, splice.added, splice.added_at);
+    place_added(scene.instances, splice);
+    ListSplice& step = scene.list_splice;
+    step.from_version = scene.list_version;
+    step.to_version = scene.version;
+    step.count = scene.instances.size();
+    step.added = splice.added_at;
+    list_moves(static_cast<std::uint32_t>(step.count), splice.removed, splice.added_at, step.moves);
+    apply_moves(step.moves, step.count - splice.removed.size() + splice.added.size(), scene.instances);
+    for (std::size_t i = 0; i < splice.added.size(); ++i) scene.instances[splice.added_at[i]] = splice.added[i];
     scene.changed_instances = splice.added_at;
-    scene.list_splice.from_version = scene.list_version;
-    scene.list_splice.to_version = scene.version;
-    scene.list_splice.removed = splice.removed;
-    scene.list_splice.added = splice.added_at;
     scene.list_version = scene.tree_version = scene.version;
     scene.tree.splice(splice.removed, splice.added_at, [&](std::uint32_t i) { return scene.instances[i].bounds_ws; });
-    return static_cast<std::uint32_t>(std::min(without, with));
+    return changed_by(step, scene.instances.size());
 }
 
 }  // namespace gnomon

@@ -7,6 +7,11 @@
 
 namespace gnomon {
 
+/// Half-open range of indices.
+struct IndexRange {
+    std::uint32_t first = 0, end = 0;
+};
+
 /// Instances to take out of a snapshot, and those to put in. Kept from frame to frame, so that its storage is reused.
 struct InstanceSplice {
     std::vector<std::uint32_t> removed;   // indices before, rising
@@ -25,8 +30,9 @@ inline bool is_worth_splicing(std::size_t changes, const SceneSnapshot& scene) {
 
 /// Removes and adds instances in place: in the list, which stays sorted by entity index, and in the tree. Added ones go
 /// to scene.changed_instances, which is empty before, and get the scene's version, as do list and tree. The cost is a
-/// look at each instance, and a copy of those behind the first change. Returns the first index that may have another
-/// instance.
-std::uint32_t splice_instances(SceneSnapshot& scene, InstanceSplice& splice);
+/// copy of the instances between the first and the last change.
+///
+/// Returns the indices that may have another instance.
+IndexRange splice_instances(SceneSnapshot& scene, InstanceSplice& splice);
 
 }  // namespace gnomon

@@ -17,6 +17,7 @@ namespace {
 constexpr glm::uvec2 kPicture_px{96, 64};
 /// Number of frames of the script, then of frames in which nothing changes: there visibility is kept.
 constexpr int kStretch = 6;
+constexpr int kMostRuns = 20;             // of a script that had nothing to see
 constexpr std::uint64_t kManyDark = 200;  // pixels of a frame
 constexpr std::size_t kPixels = std::size_t{kPicture_px.x} * kPicture_px.y;
 
@@ -127,7 +128,6 @@ protected:
 };
 
 TEST_F(EconomyIdentityGl, EveryLightsVisibilityIsThatOfEconomyOffToTheBit) {
-    constexpr int kMostRuns = 20;
     const int frames = is_exploring() ? 150 : 500;
     const auto least = static_cast<std::uint64_t>(frames);
     std::size_t differing = 0;
@@ -149,7 +149,9 @@ TEST_F(EconomyIdentityGl, AMoveThatASignatureMissesWouldBeSeen) {
     mislead = [](SceneSnapshot& scene) {
         for (InstanceItem& item : scene.instances) item.version = 1;
     };
-    EXPECT_GT(play(300), 0u);
+    std::size_t differing = 0;
+    for (int runs = 0; runs < kMostRuns && differing == 0; ++runs) differing = play(300);
+    EXPECT_GT(differing, 0u);
 }
 
 }  // namespace

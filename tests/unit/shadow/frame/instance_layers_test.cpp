@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "systems/extract/scene_tree.h"
 #include "systems/extract/splice_instances.h"
 #include "tests/unit/math/random_seed.h"
 
@@ -74,6 +75,7 @@ TEST(InstanceLayers, FollowInstancesThatCameAndWentAndReadThoseAlone) {
     const auto below = [&](std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count)(random); };
     SceneSnapshot scene = scene_of(20);
     for (std::uint32_t i = 0; i < 20; ++i) scene.instances[i].entity = {3 * i, 0};
+    build_tree(scene);
     InstanceLayers layers;
     layers.update(scene);
     InstanceSplice splice;
@@ -108,6 +110,7 @@ TEST(InstanceLayers, FollowInstancesThatCameAndWentAndReadThoseAlone) {
 
 TEST(InstanceLayers, AreAllReadWhereMoreThanASpliceChangedTheList) {
     SceneSnapshot scene = scene_of(10);
+    build_tree(scene);
     InstanceLayers layers, late;
     layers.update(scene);
     late.update(scene);
