@@ -197,7 +197,7 @@ struct ListSplice {
     std::uint64_t from_version = 0, to_version = 0;  // list_version before and after. 0: no such step
     std::size_t count = 0;                           // instances before
     std::vector<std::uint32_t> added;                // indices after, rising
-    std::vector<PlaceMove> moves;                    // of the instances whose index changed
+    std::vector<PlaceMove> moves;                    // instances with another index than before
 };
 
 /// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give

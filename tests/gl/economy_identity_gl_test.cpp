@@ -17,7 +17,7 @@ namespace {
 constexpr glm::uvec2 kPicture_px{96, 64};
 /// Number of frames of the script, then of frames in which nothing changes: there visibility is kept.
 constexpr int kStretch = 6;
-constexpr int kMostRuns = 20;             // of a script that had nothing to see
+constexpr int kMostRuns = 20;             // the script goes on where it had nothing to see
 constexpr std::uint64_t kManyDark = 200;  // pixels of a frame
 constexpr std::size_t kPixels = std::size_t{kPicture_px.x} * kPicture_px.y;
 

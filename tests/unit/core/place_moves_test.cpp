@@ -13,7 +13,7 @@ namespace {
 
 using Places = std::vector<std::uint32_t>;
 
-/// Splices by lists made anew.
+/// Splices by lists made again.
 std::vector<int> expected(const std::vector<int>& values, const Places& removed, const Places& added, int value) {
     std::vector<int> kept;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -49,7 +49,7 @@ TEST(PlaceMoves, KeepTheOrderOfAllThatStays) {
         std::iota(values.begin(), values.end(), 0);
         const Places removed = drawn(static_cast<std::uint32_t>(values.size()), 0.1 * below(10), random);
         const auto kept = static_cast<std::uint32_t>(values.size() - removed.size());
-        // Places after a splice have no gaps: below those that stay, or at the end.
+        // Places after a splice have no gaps: below kept values, or at the end.
         Places added = drawn(kept + below(10), 0.1 * below(9), random);
         while (!added.empty() && added.back() >= kept + added.size()) added.pop_back();
         const std::vector<int> wanted = expected(values, removed, added, -1);
