@@ -198,6 +198,10 @@ struct ListSplice {
     std::size_t count = 0;                           // instances before
     std::vector<std::uint32_t> added;                // indices after, rising
     std::vector<PlaceMove> moves;                    // instances with another index than before
+    /// Returns whether it is the step between two versions of a list that are both known.
+    bool leads(std::uint64_t from, std::uint64_t to) const {
+        return from != 0 && to != 0 && from == from_version && to == to_version;
+    }
 };
 
 /// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give

@@ -17,9 +17,7 @@ void InstanceLayers::update(const SceneSnapshot& scene) {
     const std::size_t count = scene.instances.size();
     if (scene.list_version != 0 && scene.list_version == list_version_ && casts_.size() == count) return;
     const ListSplice& step = scene.list_splice;
-    const bool follows = list_version_ != 0 && step.from_version == list_version_ &&
-                         step.to_version == scene.list_version && step.count == casts_.size();
-    if (follows) {
+    if (step.leads(list_version_, scene.list_version) && step.count == casts_.size()) {
         for (std::vector<ShadowLayers>* values : {&casts_, &shows_, &allows_}) apply_moves(step.moves, count, *values);
         for (const std::uint32_t i : step.added) read(scene.instances[i], i);
     } else {

@@ -128,6 +128,15 @@ TEST(InstanceLayers, AreAllReadWhereMoreThanASpliceChangedTheList) {
     remove_first();
     late.update(scene);  // the step before was not seen
     expect_of_each(scene, late);
+    // A list that is no longer counted is read, whatever step came before.
+    remove_first();
+    scene.instances[2].casts = !scene.instances[2].casts;
+    scene.renew_list();
+    scene.list_version = 0;
+    late.update(scene);
+    expect_of_each(scene, late);
+    scene.list_version = scene.version;
+    late.update(scene);
     // The control: after a splice, changes of other instances are not read.
     remove_first();
     scene.instances[2].casts = !scene.instances[2].casts;
