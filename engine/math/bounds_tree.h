@@ -31,7 +31,7 @@ public:
 
     /// Removes and adds items, and renumbers all in their order. `removed`: numbers before, rising. `added`: numbers
     /// after, rising and below the new size; they have box_of(i). Applies earlier moves as well. O(items between
-    /// the first and the last change) for the numbers; added items cost a logarithm of the size each, in the mean over
+    /// the first and the last change) for the numbers. Added items cost a logarithm of the size each, in the mean over
     /// many calls.
     template <class BoxOf>
     void splice(std::span<const std::uint32_t> removed, std::span<const std::uint32_t> added, BoxOf&& box_of) {
@@ -165,7 +165,7 @@ private:
     std::vector<Tree> trees_;             // by rising node and slot
     std::vector<BvhItem<Aabb>> items_;    // by slot; kNone with an empty box: a removed item
     std::vector<std::uint32_t> slot_of_;  // by item
-    std::vector<PlaceMove> moves_;        // scratch: of items whose number a splice changes
+    std::vector<PlaceMove> moves_;        // scratch: items with another number after a splice
     std::size_t removed_ = 0;             // slots of removed items
     std::vector<std::uint32_t> leaf_of_;  // leaf node by slot
     std::vector<std::uint32_t> parent_;   // by node

@@ -93,18 +93,19 @@ bool any_tint(const FrozenFrame& frozen) {
 
 /// Columns before a light's figures: its name, cut where the picture is narrow.
 int name_width(const FrozenFrame& frozen, const std::vector<std::size_t>& lights, float width_px) {
-    constexpr float kLeast = 10.0f, kMost = 32.0f, kFigures = 72.0f, kTint = 9.0f;
+    constexpr float kMost = 32.0f, kFigures = 72.0f, kTint = 9.0f;
+    const float least = any_tint(frozen) ? 10.0f : 14.0f;
     const float room = width_px / ImGui::CalcTextSize("m").x - kFigures - (any_tint(frozen) ? kTint : 0.0f);
     std::size_t longest = 0;
     for (const std::size_t i : lights) longest = std::max(longest, frozen.lights()[i].name.size());
-    return static_cast<int>(std::clamp(std::min(static_cast<float>(longest), room), kLeast, kMost));
+    return static_cast<int>(std::clamp(std::min(static_cast<float>(longest), room), least, kMost));
 }
 
-/// Returns the mean error of colours behind glass, percent; empty: not judged.
+/// Returns the mean error of colours behind glass, percent, as a column; empty: not judged.
 std::string tint_figure(const JudgedLight& light) {
     if (!light.tint) return {};
     char text[32];
-    std::snprintf(text, sizeof text, "%8.4f", 100.0 * light.tint->tinted_error);
+    std::snprintf(text, sizeof text, " %8.4f", 100.0 * light.tint->tinted_error);
     return text;
 }
 
@@ -115,7 +116,7 @@ std::string figures(const JudgedLight& light, const LightReport& report, int wid
         std::snprintf(text, sizeof text, "%-*.*s by %s: mean error %.3f %%, where partly lit %.2f %%, leak %.3f %%",
                       width, width, light.name.c_str(), words_of(light.by), 100.0 * m.mean_error,
                       100.0 * m.penumbra_error, 100.0 * m.umbra_leak);
-        return light.tint ? text + (", glass " + tint_figure(light) + " %") : text;
+        return light.tint ? text + (", glass" + tint_figure(light) + " %") : text;
     }
     if (!light.metrics) {
         std::snprintf(text, sizeof text, "%-*.*s %s", width, width, light.name.c_str(),
@@ -124,7 +125,7 @@ std::string figures(const JudgedLight& light, const LightReport& report, int wid
     }
     const truth::Metrics& m = *light.metrics;
     const auto percent = [&](std::size_t pixels) { return 100.0 * m.fraction(pixels); };
-    std::snprintf(text, sizeof text, "%-*.*s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f %s %s", width, width,
+    std::snprintf(text, sizeof text, "%-*.*s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f%s %s", width, width,
                   light.name.c_str(), percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
                   percent(m.acne), percent(m.leak), m.edge.max_px, report.predicted_error_px,
                   tint_figure(light).c_str(), has_less(report) ? reason_code(report.reason) : "");
@@ -159,8 +160,8 @@ void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec
     const int width = name_width(frozen, lights, size_px.x);
     words.add("against ray-traced truth, frozen: F5 goes on, F2 shows the next light");
     char head[128];
-    std::snprintf(head, sizeof head, "  %-*s %8s %8s %8s %8s %8s %7s %9s %s", width, "light", "wrong %", "f.shad %",
-                  "f.lit %", "acne %", "leak %", "edge px", "predicted", any_tint(frozen) ? " glass %" : "");
+    std::snprintf(head, sizeof head, "  %-*s %8s %8s %8s %8s %8s %7s %9s%s", width, "light", "wrong %", "f.shad %",
+                  "f.lit %", "acne %", "leak %", "edge px", "predicted", any_tint(frozen) ? "  glass %" : "");
     words.add(head);
     words.add(frozen.chosen() ? "  each pixel's worst" : "> each pixel's worst", frozen.chosen() ? kInk : kChosen);
     for (const std::size_t i : lights) {

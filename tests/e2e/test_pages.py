@@ -60,6 +60,7 @@ class Pages(unittest.TestCase):
                           ["--frames", "2", "--set", "max_error_px=0.1", "--truth", os.path.join(folder, "t.png")],
                           ["--frames", "2", "--set", "filter=pcss", "--set", "source_radius_m=0.1", "--truth",
                            os.path.join(folder, "s.png")],
+                          ["--frames", "2", "--scene", "panes", "--truth", os.path.join(folder, "p.png")],
                           ["--frames", "2", "--set", "filter=exact"]):
                 subprocess.run([self.game, "--headless", "--size", "96x54", "--stats", file, *flags], check=True,
                                timeout=TIMEOUT_S, stdout=subprocess.DEVNULL)
