@@ -40,7 +40,7 @@ Json to_json(const AreaAccuracy& area) {
 
 Json to_json(const TintAccuracy& tint) {
     const oracle::TintMetrics& m = tint.metrics;
-    return {{"scored_px", m.pixels},      {"tinted_px", m.tinted},          {"beyond_px", m.beyond},
+    return {{"scored_px", m.scored},      {"tinted_px", m.tinted},          {"beyond_px", m.beyond},
             {"mean_error", m.mean_error}, {"tinted_error", m.tinted_error}, {"max_error", m.max_error}};
 }
 

@@ -101,7 +101,7 @@ void append_tint(const Accuracy& accuracy, std::string& text) {
     for (const LightAccuracy& light : accuracy.lights) {
         if (!light.tint) continue;
         const oracle::TintMetrics& m = light.tint->metrics;
-        text += formatted("%-18.18s %8zu %8zu %8.4f %8.4f %8.3f %8zu\n", light.report.name.c_str(), m.pixels, m.tinted,
+        text += formatted("%-18.18s %8zu %8zu %8.4f %8.4f %8.3f %8zu\n", light.report.name.c_str(), m.scored, m.tinted,
                           kPercent * m.mean_error, kPercent * m.tinted_error, kPercent * m.max_error, m.beyond);
     }
 }

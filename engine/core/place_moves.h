@@ -39,7 +39,7 @@ template <class Value>
 void apply_moves(std::span<const PlaceMove> moves, std::size_t count, std::vector<Value>& values) {
     values.resize(std::max(values.size(), count));
     const auto at = [&](std::size_t place) { return values.begin() + static_cast<std::ptrdiff_t>(place); };
-    // No move to the front reads where one to the back writes: values keep their order.
+    // Values keep their order, so that no move to the front writes where a move to the back has yet to read.
     for (const PlaceMove& move : moves)
         if (move.to < move.from) std::move(at(move.from), at(move.from + move.count), at(move.to));
     for (std::size_t left = moves.size(); left > 0; --left) {

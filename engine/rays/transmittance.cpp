@@ -1,5 +1,6 @@
 #include "engine/rays/transmittance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
@@ -42,6 +43,9 @@ auto sampled(const assets::Texture& texture, const glm::dvec2& uv, const Read& r
     const auto row = [&](double y) { return glm::mix(texel(first.x, y), texel(first.x + 1.0, y), part.x); };
     return glm::mix(row(first.y), row(first.y + 1.0), part.y);
 }
+
+/// Returns the number as a share, as the device takes it: 0 for NaN.
+double share(double value) { return value > 0.0 ? std::min(value, 1.0) : 0.0; }
 
 /// A point of a triangle.
 struct SurfacePoint {
@@ -89,10 +93,14 @@ glm::dvec3 transmittance(const assets::MeshLibrary& library, const assets::Mesh&
         point, [](const glm::vec4& stored) { return glm::dvec4(stored); }, colour_of);
     const bool masked = material.alpha_mode == assets::AlphaMode::mask;
     if (masked && !(colour.a >= static_cast<double>(material.alpha_cutoff))) return glm::dvec3(1.0);
-    const double covered = material.alpha_mode == assets::AlphaMode::blend ? glm::clamp(colour.a, 0.0, 1.0) : 1.0;
-    const glm::dvec3 tinted = glm::dvec3(material.transmission) * glm::dvec3(colour) *
-                              (1.0 - glm::clamp(static_cast<double>(material.metallic), 0.0, 1.0));
-    return 1.0 - covered * (1.0 - glm::clamp(tinted, 0.0, 1.0));
+    const double covered = material.alpha_mode == assets::AlphaMode::blend ? share(colour.a) : 1.0;
+    const double dielectric = 1.0 - share(static_cast<double>(material.metallic));
+    glm::dvec3 passed;
+    for (int i = 0; i < 3; ++i) {
+        const double through = share(static_cast<double>(material.transmission[i]));
+        passed[i] = 1.0 - covered * (1.0 - share(through * colour[i] * dielectric));
+    }
+    return passed;
 }
 
 }  // namespace gnomon::rays

@@ -15,7 +15,7 @@ bool is_there(const assets::MeshLibrary& library, const assets::Mesh& mesh, std:
               std::uint32_t material, const glm::dvec3& weights);
 
 /// Returns the share of light that a translucent material lets through, per channel, 0 to 1. Holes of a mask let all
-/// through.
+/// through. GLSL twin: shaders/shadow/passes/tint/surface_transmittance.glsl.
 glm::dvec3 transmittance(const assets::MeshLibrary& library, const assets::Mesh& mesh, std::uint32_t triangle,
                          std::uint32_t material, const glm::dvec3& weights);
 

@@ -65,7 +65,8 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
         if (scene.lights[i].has_shadow) truth.lights.push_back({i, {}, {}, {}, {}, {}});
     const std::uint32_t height = camera.viewport_px.y;
     visibility::CasterTrees translucent(library, visibility::TreesOf::translucent);
-    translucent.update(scene);
+    const bool has_glass = std::any_of(library.materials.begin(), library.materials.end(), assets::transmits);
+    if (has_glass) translucent.update(scene);
     std::uint64_t work_per_row = kSeeing;
     for (TracedLight& traced : truth.lights) {
         work_per_row += kLighting;

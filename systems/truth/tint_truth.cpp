@@ -56,12 +56,12 @@ private:
     rays::PerLane<glm::dvec3>& passed_;
 };
 
-/// Multiplies `passed` by what each translucent surface of these layers lets through.
-void pass_through(const SceneSnapshot& scene, const visibility::CasterTrees& trees, ShadowLayers layers,
+/// Multiplies `passed` by what each translucent surface of the light's layers lets through.
+void pass_through(const SceneSnapshot& scene, const visibility::CasterTrees& trees, const LightItem& light,
                   const rays::RayPacket& rays, rays::PerLane<glm::dvec3>& passed) {
     const auto casts = [&](const InstanceItem& item) {
         const rays::MeshBvh* tree = trees.tree(item.mesh);
-        return item.casts && (item.cast_layers & layers) != 0 && tree && !tree->nodes().empty();
+        return casts_under(light, item) && tree && !tree->nodes().empty();
     };
     const auto none_first = static_cast<std::uint32_t>(scene.instances.size());
     visibility::SceneWalk walk(scene, trees, rays);
@@ -82,14 +82,14 @@ void TintTruth::reset(std::size_t pixels) {
 void trace_tint_rows(const SceneSnapshot& scene, const LightItem& light, const SeenSurfaces& seen, RowRange rows,
                      const visibility::CasterTrees& trees, TintTruth& truth) {
     const std::array middle{glm::dvec2(0.0)};
-    const visibility::LightRays to_light(light, middle);
+    const visibility::LightRays rays_to_light(light, middle);
     rays::RayPacket packet;
-    packet.last = to_light.last();
+    packet.last = rays_to_light.last();
     rays::PerLane<std::size_t> pixel_of_lane{};
     const auto send = [&] {
         rays::PerLane<glm::dvec3> passed;
         passed.fill(glm::dvec3(1.0));
-        pass_through(scene, trees, light.shadow.layers, packet, passed);
+        pass_through(scene, trees, light, packet, passed);
         for (std::size_t lane = 0; lane < packet.count; ++lane)
             truth.passed[pixel_of_lane[lane]] = glm::vec3(passed[lane]);
         packet.count = 0;
@@ -99,7 +99,7 @@ void trace_tint_rows(const SceneSnapshot& scene, const LightItem& light, const S
         if (seen.instance[pixel] == kNoSurface || !(cosine_to(light, seen, pixel) > kMinCosine)) continue;
         if (!receives_under(light, scene.instances[seen.instance[pixel]])) continue;
         visibility::LightRay ray;
-        const visibility::Reach reach = to_light.ray({seen.position_ws_m[pixel]}, 0, ray);
+        const visibility::Reach reach = rays_to_light.ray({seen.position_ws_m[pixel]}, 0, ray);
         truth.scored[pixel] = reach != visibility::Reach::none;
         if (reach != visibility::Reach::ray) continue;
         packet.from[packet.count] = ray.from_ws_m;
@@ -110,28 +110,35 @@ void trace_tint_rows(const SceneSnapshot& scene, const LightItem& light, const S
     if (packet.count > 0) send();
 }
 
+void TintMetrics::add(const glm::dvec3& off, bool is_tinted) {
+    constexpr double kStep = 1.0 / 255.0;
+    const double mean = (off.x + off.y + off.z) / 3.0, most = std::max({off.x, off.y, off.z});
+    ++scored;
+    tinted += is_tinted ? 1 : 0;
+    beyond += most > kStep ? 1 : 0;
+    mean_error += mean;
+    tinted_error += is_tinted ? mean : 0.0;
+    max_error = std::max(max_error, most);
+}
+
+void TintMetrics::finish() {
+    mean_error /= static_cast<double>(std::max<std::size_t>(scored, 1));
+    tinted_error /= static_cast<double>(std::max<std::size_t>(tinted, 1));
+}
+
 TintMetrics compare_tint(std::span<const glm::vec4> measured, const TintTruth& truth, const LightTruth& light,
                          std::vector<float>& off) {
-    constexpr double kStep = 1.0 / 255.0;
     TintMetrics m;
     off.assign(truth.passed.size(), 0.0f);
     for (std::size_t i = 0; i < truth.passed.size(); ++i) {
         if (truth.scored[i] == 0 || light.ambiguous[i] != 0 || !(light.visibility[i] > 0.0f)) continue;
-        const glm::dvec3 difference = glm::dvec3(measured[i]) - glm::dvec3(truth.passed[i]);
-        const glm::dvec3 size = glm::abs(difference);
-        const double mean = (size.x + size.y + size.z) / 3.0, most = std::max({size.x, size.y, size.z});
-        const bool tinted = truth.passed[i] != glm::vec3(1.0f);
-        const int worst = size.x >= most ? 0 : size.y >= most ? 1 : 2;
+        const glm::dvec3 difference = glm::dvec3(measured[i]) - glm::dvec3(truth.passed[i]),
+                         size = glm::abs(difference);
+        m.add(size, truth.passed[i] != glm::vec3(1.0f));
+        const int worst = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         off[i] = static_cast<float>(difference[worst]);
-        ++m.scored;
-        m.tinted += tinted ? 1 : 0;
-        m.beyond += most > kStep ? 1 : 0;
-        m.mean_error += mean;
-        m.tinted_error += tinted ? mean : 0.0;
-        m.max_error = std::max(m.max_error, most);
     }
-    m.mean_error /= static_cast<double>(std::max<std::size_t>(m.scored, 1));
-    m.tinted_error /= static_cast<double>(std::max<std::size_t>(m.tinted, 1));
+    m.finish();
     return m;
 }
 

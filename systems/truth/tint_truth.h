@@ -26,13 +26,16 @@ struct TintTruth {
 void trace_tint_rows(const SceneSnapshot& scene, const LightItem& light, const SeenSurfaces& seen, RowRange rows,
                      const visibility::CasterTrees& trees, TintTruth& truth);
 
-/// How far drawn colours are off, as shares of full light.
+/// How far drawn colours are off, as shares of full light. Means are sums until finish().
 struct TintMetrics {
     std::size_t scored = 0, tinted = 0;  // tinted: by the truth
     std::size_t beyond = 0;              // any channel is off by more than 1/255
     double mean_error = 0.0;             // over all scored pixels and channels
     double tinted_error = 0.0;           // over tinted pixels and channels; 0 without
     double max_error = 0.0;              // largest of any channel
+    /// Adds a pixel. `off`: distance of each channel from the truth.
+    void add(const glm::dvec3& off, bool is_tinted);
+    void finish();
 };
 
 /// Compares `measured`, as Frame::read_tint() reads it, where `light` is scored and sends light. Fills `off` with the

@@ -81,7 +81,7 @@ ErrorCounts sums_of(const oracle::AreaMetrics& m) {
 /// Sums over pixels behind glass, and of false colour elsewhere.
 ErrorCounts sums_of(const oracle::TintMetrics& m) {
     const double tinted = sum(m.tinted_error, m.tinted);
-    return {m.tinted, whole(tinted), whole(sum(m.mean_error, m.pixels) - tinted), 0};
+    return {m.tinted, whole(tinted), whole(sum(m.mean_error, m.scored) - tinted), 0};
 }
 /// Sums over places in fog, and over view rays.
 ErrorCounts sums_of(const bench::AirAccuracy& air) {

@@ -61,7 +61,7 @@ protected:
         const oracle::PrimaryHits hits = tracer.trace_primary(eye);
         const auto truth = oracle::trace_tint(scene, library, eye.position_ws_m, hits, scene.lights.at(light));
         const oracle::TintMetrics m = oracle::compare_tint(hits, truth, tint(light));
-        return {255.0 * m.mean_error, 255.0 * m.max_error, m.pixels, m.tinted, m.beyond, m.darkest};
+        return {255.0 * m.mean_error, 255.0 * m.max_error, m.scored, m.tinted, m.beyond, m.darkest};
     }
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  // turn of panes that are added
 };

@@ -153,23 +153,13 @@ bool has_translucent_casters(const SceneSnapshot& scene, const assets::MeshLibra
 
 TintMetrics compare_tint(const PrimaryHits& hits, std::span<const glm::dvec3> truth,
                          std::span<const glm::vec4> measured) {
-    constexpr double kStep = 1.0 / 255.0;
     TintMetrics m;
     for (std::size_t i = 0; i < truth.size(); ++i) {
         if (hits.triangle[i] == kNoTriangle) continue;
-        const glm::dvec3 off = glm::abs(glm::dvec3(measured[i]) - truth[i]);
-        const double mean = (off.x + off.y + off.z) / 3.0, most = std::max({off.x, off.y, off.z});
-        const bool tinted = truth[i] != glm::dvec3(1.0);
-        ++m.pixels;
-        m.tinted += tinted ? 1 : 0;
-        m.beyond += most > kStep ? 1 : 0;
-        m.mean_error += mean;
-        m.tinted_error += tinted ? mean : 0.0;
-        m.max_error = std::max(m.max_error, most);
+        m.add(glm::abs(glm::dvec3(measured[i]) - truth[i]), truth[i] != glm::dvec3(1.0));
         m.darkest = glm::min(m.darkest, truth[i]);
     }
-    m.mean_error /= static_cast<double>(std::max<std::size_t>(m.pixels, 1));
-    m.tinted_error /= static_cast<double>(std::max<std::size_t>(m.tinted, 1));
+    m.finish();
     return m;
 }
 

@@ -7,6 +7,7 @@
 
 #include "gnomon/assets.h"
 #include "systems/extract/snapshot.h"
+#include "systems/truth/tint_truth.h"
 #include "tests/oracle/reference_tracer.h"
 
 /// Ray-traced truth about what translucent casters let through.
@@ -26,14 +27,9 @@ std::vector<glm::dvec3> trace_tint(const SceneSnapshot& scene, const assets::Mes
 /// Returns whether any caster of the light lets light through.
 bool has_translucent_casters(const SceneSnapshot& scene, const assets::MeshLibrary& library, const LightItem& light);
 
-/// How far measured colours are from the truth, over pixels with a surface. Errors are shares of full light.
-struct TintMetrics {
-    std::size_t pixels = 0, tinted = 0;  // tinted: by the truth
-    std::size_t beyond = 0;              // any channel off by more than 1/255
-    double mean_error = 0.0;             // over all pixels and channels
-    double tinted_error = 0.0;           // over tinted pixels and channels; 0 without
-    double max_error = 0.0;              // largest of any channel
-    glm::dvec3 darkest{1.0};             // truth, each channel by itself
+/// The library's figures, by the oracle's truth, over all pixels with a surface.
+struct TintMetrics : truth::TintMetrics {
+    glm::dvec3 darkest{1.0};  // truth, each channel by itself
 };
 
 /// Compares `measured`, values as Frame::read_tint() has them, of the size of the hits, with the truth.
