@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "systems/extract/scene_tree.h"
@@ -111,6 +112,24 @@ TEST_F(SceneStoreTest, AMoveIsAppliedInPlace) {
     EXPECT_GT(scene.instances[1].version, second);
     EXPECT_EQ(scene.instances[1].bounds_ws.min.x, 4.0);
     EXPECT_TRUE(has_tree(scene));
+}
+
+TEST_F(SceneStoreTest, WhatComesIsAStepFromTheListBeforeUnlessAnotherChangedWhatItCasts) {
+    const MeshId mesh = add_mesh();
+    std::vector<CasterId> casters;
+    for (int i = 0; i < 20; ++i) casters.push_back(add_at(mesh, {3.0 * i, 0.0, 0.0}));
+    std::uint64_t before = updated().list_version;
+    const auto led_there = [&] {
+        const SceneSnapshot& scene = updated();
+        return scene.list_splice.leads(std::exchange(before, scene.list_version), scene.list_version);
+    };
+    add_at(mesh, {0.0, 9.0, 0.0});
+    EXPECT_TRUE(led_there());
+    add_at(mesh, {3.0, 9.0, 0.0});
+    store.set_caster(casters[2], {.mesh = mesh, .casts = false});
+    EXPECT_FALSE(led_there());
+    store.remove(casters[4]);
+    EXPECT_TRUE(led_there()) << "the next step is one again";
 }
 
 TEST_F(SceneStoreTest, WhatIsRemovedLeavesTheOthersAlone) {

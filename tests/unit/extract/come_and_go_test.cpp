@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "gnomon/components.h"
 #include "tests/unit/allocation_counter.h"
@@ -46,6 +47,25 @@ protected:
     std::vector<ecs::Entity> boxes;
     int count = 0;
 };
+
+TEST_F(ComeAndGo, AreAStepFromTheListBeforeUnlessAnotherChangedWhatItCasts) {
+    std::uint64_t before = snapshot.list_version;
+    const auto led_there = [&] {
+        update();
+        return snapshot.list_splice.leads(std::exchange(before, snapshot.list_version), snapshot.list_version);
+    };
+    add();
+    EXPECT_TRUE(led_there());
+    world.registry.destroy(boxes[5]);
+    EXPECT_TRUE(led_there());
+    add();
+    world.registry.remove<ShadowCaster>(boxes[1]);
+    EXPECT_FALSE(led_there());
+    add();
+    EXPECT_TRUE(led_there()) << "the next step is one again";
+    for (int i = 0; i < kBoxes; ++i) add();
+    EXPECT_FALSE(led_there()) << "so many that the list was made again";
+}
 
 TEST_F(ComeAndGo, OneThatComesIsTheOnlyOneThatChanged) {
     const std::vector<std::uint64_t> versions = instance_versions();
